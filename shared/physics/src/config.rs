@@ -1,0 +1,67 @@
+//! The solver's constants: unit, default, and what breaks when they change.
+
+use crate::error::{Error, Field, check};
+use crate::scalar::{Quantity, Scalar, px, ratio};
+use crate::vec2::{Vec2, vec2};
+
+/// How much work a step puts into accuracy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Level {
+    /// Plain impulses, partial position correction: the cheapest.
+    #[default]
+    Flat,
+}
+
+/// Constants of a world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config<S: Scalar> {
+    /// Accuracy level.
+    pub level: Level,
+    /// Acceleration, px/s2, each component within +-8000. Default (0, 200).
+    pub gravity: Vec2<S::Real>,
+    /// Passes over the contacts in a step, 1..=16. Default 2; more make stacks firmer and cost time.
+    pub velocity_iterations: u8,
+    /// Part of the penetration beyond the slop that a step removes, 0..=1. Default 0.2; more makes stacks nervous.
+    pub bias: S::Real,
+    /// Penetration that is left alone, px, 0..=8. Default 0.02; less makes resting bodies tremble.
+    pub slop: S::Real,
+    /// Approach speed below which nothing bounces, px/s, 0..=1000. Default 0.5, and never less than what gravity adds in two
+    /// steps: a resting body would bounce for ever.
+    pub velocity_threshold: S::Real,
+}
+
+impl<S: Scalar> Default for Config<S> {
+    fn default() -> Self {
+        Self {
+            level: Level::Flat,
+            gravity: vec2(S::Real::ZERO, S::real(px(200))),
+            velocity_iterations: 2,
+            bias: S::real(ratio(1, 5)),
+            slop: S::real(ratio(1, 50)),
+            velocity_threshold: S::real(ratio(1, 2)),
+        }
+    }
+}
+
+impl<S: Scalar> Config<S> {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] with the first field that is, its value and its range.
+    pub fn validate(&self) -> Result<(), Error<S>> {
+        check(Field::GravityX, self.gravity.x, -8000, 8000)?;
+        check(Field::GravityY, self.gravity.y, -8000, 8000)?;
+        let iterations = S::real(px(i16::from(self.velocity_iterations)));
+        check(Field::VelocityIterations, iterations, 1, 16)?;
+        check(Field::Bias, self.bias, 0, 1)?;
+        check(Field::Slop, self.slop, 0, 8)?;
+        check(Field::VelocityThreshold, self.velocity_threshold, 0, 1000)
+    }
+
+    /// Approach speed below which nothing bounces.
+    pub(crate) fn bounce_threshold(&self) -> S::Speed {
+        let gravity = self.gravity.map(|g| S::acceleration(g).abs());
+        let two_steps = gravity.x + gravity.x + gravity.y + gravity.y;
+        S::speed(self.velocity_threshold).greater(two_steps)
+    }
+}

@@ -1,0 +1,26 @@
+//! Overlap is pushed apart without touching velocities: a part of what exceeds the slop, each step (J. Baumgarte's
+//! stabilization, 1972, applied to positions).
+
+use crate::scalar::{Quantity, Scalar};
+use crate::world::World;
+
+/// One pass over all contacts.
+pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>) {
+    let (slop, bias) = (world.config.slop, world.config.bias);
+    for contact in world.pool.all() {
+        if contact.penetration <= slop {
+            continue;
+        }
+        let correction = S::length_scaled(contact.penetration - slop, bias);
+        let apart = contact.normal.map(|n| S::length_times(correction, n));
+        let a = &mut world.bodies[usize::from(contact.a)].position;
+        a.x = a.x.saturating_sub(S::length_times(apart.x, contact.share));
+        a.y = a.y.saturating_sub(S::length_times(apart.y, contact.share));
+        let other = contact.other_share();
+        if other != S::Unit::ZERO {
+            let b = &mut world.bodies[usize::from(contact.b)].position;
+            b.x = b.x.saturating_add(S::length_times(apart.x, other));
+            b.y = b.y.saturating_add(S::length_times(apart.y, other));
+        }
+    }
+}

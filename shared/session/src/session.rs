@@ -1,0 +1,326 @@
+//! The session: which scene runs, how far it is, what the host was promised.
+
+use flat_physics::{Effects, Level, Pace, Scheduler, Stage};
+use flat_wire::PROTOCOL_VERSION;
+use flat_wire::message::{
+    self, Command, Detail, Event, Flip, Frame, Hello, Loaded, Order, Point, Reply, STAGES, ScalarKind, SceneRequest,
+    Status, StreamRequest,
+};
+
+use crate::any_world::{Worlds, reason};
+use crate::identity::{Identity, Stopwatch};
+use crate::sink::{Class, Sender, Sink};
+use crate::stream::{Dropped, Emission, Record};
+
+/// How long to wait for the line before looking again, us.
+const HELD_US: u64 = 500;
+
+/// What the receiver has counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LinkCounters {
+    /// Frames received intact.
+    pub received: u32,
+    /// Frames received damaged, and discarded.
+    pub damaged: u32,
+}
+
+/// The device program.
+#[derive(Debug)]
+pub struct Session<'a> {
+    identity: Identity,
+    worlds: Worlds<'a>,
+    scene: Option<Loadout>,
+    run: Option<Run>,
+    stream: StreamRequest,
+    watch: Option<Point>,
+    flip: Option<Flip>,
+    sender: Sender,
+    dropped: Dropped,
+    link: LinkCounters,
+}
+
+/// The scene that is loaded.
+#[derive(Clone, Copy, Debug)]
+struct Loadout {
+    scalar: ScalarKind,
+    effects: Effects,
+    /// Steps done.
+    step: u32,
+}
+
+/// A run under way.
+#[derive(Debug)]
+struct Run {
+    remaining: u32,
+    scheduler: Scheduler,
+    /// Device time up to which the scheduler knows, us.
+    known_us: u64,
+    /// Steps that are due and not yet done.
+    owed: u8,
+    /// Next stage of the step under way.
+    stage: usize,
+    record: Record,
+    /// Frames that must go out before the run goes on.
+    emission: Option<Emission>,
+    /// Whether the line was too slow for them.
+    held: bool,
+    /// Frames that had been dropped when the run began.
+    dropped_before: Dropped,
+}
+
+impl<'a> Session<'a> {
+    /// A session without a scene.
+    pub fn new(identity: Identity, worlds: Worlds<'a>) -> Self {
+        Self {
+            identity,
+            worlds,
+            scene: None,
+            run: None,
+            stream: StreamRequest::default(),
+            watch: None,
+            flip: None,
+            sender: Sender::new(),
+            dropped: Dropped::default(),
+            link: LinkCounters::default(),
+        }
+    }
+
+    /// Carries out one command at device time `now_us` and answers it.
+    pub fn handle(&mut self, now_us: u64, sequence: u16, command: &Command, sink: &mut dyn Sink) {
+        let reply = match command {
+            Command::Hello { .. } => Ok(Reply::Hello(self.hello())),
+            Command::Load(request) => self.load(request).map(Reply::Loaded),
+            Command::Stream(request) => {
+                self.stream = *request;
+                Ok(Reply::Done)
+            }
+            Command::Run { steps } => self.start(*steps, now_us),
+            Command::Stop => {
+                if let Some(run) = &mut self.run {
+                    // A step under way is finished first.
+                    run.remaining = run.remaining.min(u32::from(run.stage > 0));
+                }
+                Ok(Reply::Done)
+            }
+            Command::Status => Ok(Reply::Status(self.status())),
+            Command::Watch(point) => self.check_ahead(*point).map(|()| {
+                self.watch = Some(*point);
+                Reply::Done
+            }),
+            Command::Flip(flip) => self.check_flip(flip).map(|()| {
+                self.flip = Some(*flip);
+                Reply::Done
+            }),
+        };
+        self.reply(sequence, reply.unwrap_or_else(Reply::Refused), sink);
+    }
+
+    /// Answers a frame that arrived intact but isn't in this device's table of commands.
+    pub fn refuse_unknown(&mut self, sequence: u16, sink: &mut dyn Sink) {
+        let text = reason(format_args!("unknown command; this device speaks protocol {PROTOCOL_VERSION}"));
+        self.reply(sequence, Reply::Refused(text), sink);
+    }
+
+    /// Takes note of the receiver's counters, for [`Status`].
+    pub fn note_link(&mut self, counters: LinkCounters) {
+        self.link = counters;
+    }
+
+    /// Runs the steps that are due at device time `now_us` and sends what the host wants of them.
+    #[inline(never)] // so that firmware can place it, by its name, in memory without wait states
+    pub fn tick(&mut self, now_us: u64, stopwatch: &mut dyn Stopwatch, sink: &mut dyn Sink) {
+        let Some(run) = &mut self.run else {
+            return;
+        };
+        run.scheduler.elapse(now_us.saturating_sub(run.known_us));
+        run.known_us = run.known_us.max(now_us);
+        if run.owed == 0 {
+            run.owed = run.scheduler.take();
+        }
+        while self.advance(stopwatch, sink) {}
+    }
+
+    /// When [`tick`](Self::tick) next has something to do, device us; none = only after a command.
+    pub fn due_us(&self) -> Option<u64> {
+        let run = self.run.as_ref()?;
+        let wait = match run {
+            Run { held: true, .. } => HELD_US,
+            Run { remaining: 0, .. } => 0,
+            Run { scheduler, .. } => scheduler.until_due_us(),
+        };
+        Some(run.known_us + wait)
+    }
+
+    /// One move: send what waits, run a stage, or end the run. False when nothing is left to do for now.
+    fn advance(&mut self, stopwatch: &mut dyn Stopwatch, sink: &mut dyn Sink) -> bool {
+        let (Some(run), Some(scene)) = (&mut self.run, &mut self.scene) else {
+            return false;
+        };
+        let world = self.worlds.of_mut(scene.scalar);
+        if let Some(emission) = &mut run.emission {
+            run.held = !emission.send(world, &run.record, &mut self.dropped, &mut self.sender, sink);
+            if run.held {
+                return false;
+            }
+            run.emission = None;
+        }
+        if run.remaining == 0 {
+            run.held = !finish(scene.step, world.digest(), run, self.dropped, &mut self.sender, sink);
+            if !run.held {
+                self.run = None;
+            }
+            return false;
+        }
+        if run.owed == 0 {
+            return false;
+        }
+
+        let (step, stage) = (scene.step + 1, Stage::ALL[run.stage]);
+        let start = stopwatch.count();
+        world.run(stage, scene.effects);
+        run.record.counts[run.stage] = stopwatch.count().wrapping_sub(start);
+        let here = Point { step, stage: run.stage as u8 };
+        if let Some(flip) = self.flip.take_if(|flip| flip.point == here) {
+            world.flip(flip.body, flip.bit);
+        }
+        if self.stream.stage_digests {
+            run.record.digests[run.stage] = world.digest();
+        }
+        let watched = self.watch.take_if(|point| *point == here).is_some();
+        run.stage += 1;
+        if run.stage == STAGES {
+            (run.stage, run.owed, run.remaining) = (0, run.owed - 1, run.remaining - 1);
+            scene.step = step;
+            run.record.backlog_us = run.scheduler.backlog_us();
+            run.emission = Some(Emission::of_step(step, if watched { everything(self.stream) } else { self.stream }));
+        } else if watched {
+            run.emission = Some(Emission::of_point(here, everything(self.stream)));
+        }
+        true
+    }
+
+    fn hello(&self) -> Hello {
+        Hello {
+            protocol: PROTOCOL_VERSION,
+            build: cut(self.identity.build),
+            board: cut(self.identity.board),
+            clock_hz: self.identity.clock_hz,
+            counter: self.identity.counter,
+            capacities: self.worlds.capacities(),
+        }
+    }
+
+    fn load(&mut self, request: &SceneRequest) -> Result<Loaded, message::Reason> {
+        let scene = flat_scenes::find(&request.name)
+            .ok_or_else(|| reason(format_args!("there is no scene named {:?}", request.name.as_str())))?;
+        let order = match request.order {
+            Order::Forward => flat_scenes::Order::Forward,
+            Order::Reverse => flat_scenes::Order::Reverse,
+            Order::Shuffled => flat_scenes::Order::Shuffled,
+        };
+        let level = match request.level {
+            message::Level::Flat => Level::Flat,
+        };
+        let parameters =
+            scene.parameters(request.bodies, request.seed, order).map_err(|error| reason(format_args!("{error}")))?;
+        let world = self.worlds.of_mut(request.scalar);
+        world.load(scene, &parameters, level)?;
+        let loaded = Loaded { bodies: world.statistics().bodies, digest: world.digest() };
+        self.scene = Some(Loadout { scalar: request.scalar, effects: scene.effects, step: 0 });
+        (self.run, self.watch, self.flip) = (None, None, None);
+        self.dropped = Dropped::default();
+        Ok(loaded)
+    }
+
+    fn start(&mut self, steps: u32, now_us: u64) -> Result<Reply, message::Reason> {
+        let scene = self.scene.ok_or_else(|| reason(format_args!("no scene is loaded")))?;
+        if let Some(run) = &self.run {
+            return Err(reason(format_args!("a run is under way, {} steps remain", run.remaining)));
+        }
+        if steps == 0 || scene.step.checked_add(steps).is_none() {
+            return Err(reason(format_args!("steps is {steps}, must be 1..={}", u32::MAX - scene.step)));
+        }
+        self.run = Some(Run {
+            remaining: steps,
+            scheduler: Scheduler::new(Pace::DEFAULT),
+            known_us: now_us,
+            owed: 0,
+            stage: 0,
+            record: Record::default(),
+            emission: None,
+            held: false,
+            dropped_before: self.dropped,
+        });
+        Ok(Reply::Done)
+    }
+
+    fn status(&self) -> Status {
+        Status {
+            step: self.scene.map_or(0, |scene| scene.step),
+            remaining: self.run.as_ref().map_or(0, |run| run.remaining),
+            backlog_us: self.run.as_ref().map_or(0, |run| run.scheduler.backlog_us()),
+            received: self.link.received,
+            damaged: self.link.damaged,
+            dropped_detail: self.dropped.detail,
+            dropped_steps: self.dropped.steps,
+        }
+    }
+
+    /// Whether a point is a stage that is still to come.
+    fn check_ahead(&self, point: Point) -> Result<(), message::Reason> {
+        let scene = self.scene.ok_or_else(|| reason(format_args!("no scene is loaded")))?;
+        let last = STAGES - 1;
+        if usize::from(point.stage) > last {
+            return Err(reason(format_args!("stage is {}, must be 0..={last}", point.stage)));
+        }
+        let next_stage = self.run.as_ref().map_or(0, |run| run.stage);
+        if point.step <= scene.step || (point.step == scene.step + 1 && usize::from(point.stage) < next_stage) {
+            return Err(reason(format_args!("step {} stage {} has passed", point.step, point.stage)));
+        }
+        Ok(())
+    }
+
+    fn check_flip(&self, flip: &Flip) -> Result<(), message::Reason> {
+        self.check_ahead(flip.point)?;
+        let scalar = self.scene.map_or(ScalarKind::Fixed, |scene| scene.scalar);
+        let bits = if scalar == ScalarKind::F64 { 64 } else { 32 };
+        if flip.bit >= bits {
+            return Err(reason(format_args!("bit is {}, must be 0..={}", flip.bit, bits - 1)));
+        }
+        if !self.worlds.of(scalar).holds(flip.body) {
+            return Err(reason(format_args!("there is no body in slot {}", flip.body)));
+        }
+        Ok(())
+    }
+
+    fn reply(&mut self, to: u16, reply: Reply, sink: &mut dyn Sink) {
+        if !self.sender.offer(Class::Reply, &Event::Reply { to, reply }, sink) {
+            // The host asked faster than it reads; it will ask again.
+            self.sender.skip();
+            self.dropped.steps = self.dropped.steps.saturating_add(1);
+        }
+    }
+}
+
+/// Sends the end of a run; false if there was no room yet.
+fn finish(step: u32, digest: u64, run: &Run, dropped: Dropped, sender: &mut Sender, sink: &mut dyn Sink) -> bool {
+    let before = run.dropped_before;
+    let frame = Frame::Finished {
+        step,
+        digest,
+        dropped_detail: dropped.detail - before.detail,
+        dropped_steps: dropped.steps - before.steps,
+    };
+    sender.offer(Class::Reply, &Event::Frame(frame), sink)
+}
+
+/// The host's wishes with all bodies and contacts on top.
+fn everything(request: StreamRequest) -> StreamRequest {
+    StreamRequest { detail: Detail::Full, every: 1, contacts: true, ..request }
+}
+
+/// As much of a text as fits.
+fn cut<const N: usize>(text: &str) -> heapless::String<N> {
+    let end = text.floor_char_boundary(N);
+    heapless::String::try_from(&text[..end]).unwrap_or_default()
+}
