@@ -1,0 +1,50 @@
+//! Linker set-up for the chosen board, and a clear word where none or several are chosen.
+
+use std::path::Path;
+use std::{env, fs, io};
+
+/// Board, target architecture, target to name in advice, linker arguments.
+type Board = (&'static str, &'static str, &'static str, &'static [&'static str]);
+
+const BOARDS: [Board; 3] = [
+    ("qemu_virt", "riscv32", "riscv32imc-unknown-none-elf", &["-Tmemory.x", "-Tlink.x"]),
+    ("esp32c3", "riscv32", "riscv32imc-unknown-none-elf", &["-Tlinkall.x"]),
+    ("esp32", "xtensa", "xtensa-esp32-none-elf", &["-nostartfiles", "-Wl,-Tlinkall.x"]),
+];
+
+fn main() -> io::Result<()> {
+    let chosen = BOARDS.iter().filter(|(name, ..)| is_chosen(name)).collect::<Vec<_>>();
+    let [(name, arch, target, link_args)] = chosen[..] else {
+        let names = BOARDS.map(|(name, ..)| name).join(", ");
+        println!("cargo::error=choose exactly one board with --features, out of {names}; chosen: {}", chosen.len());
+        return Ok(());
+    };
+    if env::var("CARGO_CFG_TARGET_ARCH").as_deref() != Ok(arch) {
+        println!("cargo::error=board {name} is built with --target {target}");
+        return Ok(());
+    }
+
+    let out = env::var("OUT_DIR").expect("cargo sets OUT_DIR");
+    let memory = if *name == "qemu_virt" { "qemu_virt" } else { "esp" };
+    provide(&format!("{memory}.x"), Path::new(&out).join("board-memory.x"))?;
+    provide("rwtext_hook.x", Path::new(&out).join("rwtext_hook.x"))?;
+    println!("cargo::rustc-link-search={out}");
+    for arg in *link_args {
+        println!("cargo::rustc-link-arg-bins={arg}");
+    }
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=../memory.x");
+    Ok(())
+}
+
+/// Whether the board's feature is on.
+fn is_chosen(board: &str) -> bool {
+    env::var_os(format!("CARGO_FEATURE_{}", board.to_uppercase())).is_some()
+}
+
+/// Puts a linker script of this crate where the linker looks for it.
+fn provide(script: &str, to: impl AsRef<Path>) -> io::Result<()> {
+    let from = Path::new("memory").join(script);
+    println!("cargo::rerun-if-changed={}", from.display());
+    fs::copy(from, to).map(drop)
+}

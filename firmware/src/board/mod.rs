@@ -1,0 +1,37 @@
+//! The boards. Each starts itself, calls [`crate::start`], and says here:
+//!
+//! | Name            | Is                                                              |
+//! |-----------------|-----------------------------------------------------------------|
+//! | `Receiver`      | serial in, `embedded_io_async::Read`                            |
+//! | `Transmitter`   | serial out, `embedded_io_async::Write`                          |
+//! | `Stopwatch`     | `flat_session::Stopwatch`                                       |
+//! | `OUTBOX_BYTES`  | bytes of frames that may wait for the link                      |
+//! | `FIXED` and so on | room for bodies and contacts in each number format            |
+//!
+//! Time comes from the board's embassy time driver, in microseconds.
+
+#[cfg(feature = "_esp")]
+mod esp;
+#[cfg(feature = "esp32")]
+mod esp32;
+#[cfg(feature = "esp32c3")]
+mod esp32c3;
+#[cfg(feature = "qemu_virt")]
+mod qemu_virt;
+
+#[cfg(feature = "_esp")]
+pub(crate) use esp::{Receiver, Transmitter};
+#[cfg(feature = "esp32")]
+pub(crate) use esp32::{F32, F64, FIXED, OUTBOX_BYTES, Stopwatch};
+#[cfg(feature = "esp32c3")]
+pub(crate) use esp32c3::{F32, F64, FIXED, OUTBOX_BYTES, Stopwatch};
+#[cfg(feature = "qemu_virt")]
+pub(crate) use qemu_virt::{F32, F64, FIXED, OUTBOX_BYTES, Receiver, Stopwatch, Transmitter};
+
+/// Room for one number format.
+pub(crate) struct Capacity {
+    /// Most bodies.
+    pub(crate) bodies: usize,
+    /// Most contacts.
+    pub(crate) contacts: usize,
+}
