@@ -1,0 +1,19 @@
+//! Everything between the firmware's sources and an image that has been looked at: a compiler for the boards, the build,
+//! and checks on what came out.
+//!
+//! ```text
+//!   provision -> toolchain -> image -> elf (instructions), hot_path (dwarf)
+//!                    |
+//!                    `-> esp32 (a type-check where there is no Xtensa compiler)
+//! ```
+
+pub mod dwarf;
+pub mod elf;
+pub mod esp32;
+pub mod hot_path;
+pub mod image;
+pub mod instructions;
+pub mod provision;
+pub mod subprocess;
+pub mod toolchain;
+pub mod workspace;

@@ -1,0 +1,106 @@
+//! Steps on the firmware and its images.
+
+use super::step::{Result, Verdict};
+use crate::firmware::elf::Image;
+use crate::firmware::esp32::{self, Outcome};
+use crate::firmware::hot_path;
+use crate::firmware::image::{self, Board};
+use crate::firmware::provision;
+use crate::firmware::subprocess;
+use crate::firmware::toolchain::Toolchain;
+
+/// Findings that are shown in full before the rest is only counted.
+const SHOWN: usize = 20;
+
+pub(super) fn provision() -> Result {
+    provision::provision().map(Verdict::Passed)
+}
+
+pub(super) fn build_qemu_virt() -> Result {
+    build(Board::QemuVirt)
+}
+
+pub(super) fn build_esp32c3() -> Result {
+    build(Board::Esp32c3)
+}
+
+fn build(board: Board) -> Result {
+    let image = Image::read(&image::build(board)?)?;
+    Ok(Verdict::Passed(image.sizes.to_string()))
+}
+
+pub(super) fn lint_qemu_virt() -> Result {
+    lint(Board::QemuVirt)
+}
+
+pub(super) fn lint_esp32c3() -> Result {
+    lint(Board::Esp32c3)
+}
+
+fn lint(board: Board) -> Result {
+    let mut clippy = Toolchain::find()?.clippy()?;
+    image::choose(board, &mut clippy)?;
+    clippy.args(["--", "-Dwarnings"]);
+    subprocess::run(&format!("clippy on the {board} firmware"), &mut clippy)?;
+    Ok(Verdict::Passed("no warnings".into()))
+}
+
+pub(super) fn elf_qemu_virt() -> Result {
+    let image = Image::read(&image::build(Board::QemuVirt)?)?;
+    instructions(&image)
+}
+
+pub(super) fn elf_esp32c3() -> Result {
+    let image = Image::read(&image::build(Board::Esp32c3)?)?;
+    let instructions = match instructions(&image)? {
+        Verdict::Passed(text) => text,
+        otherwise => return Ok(otherwise),
+    };
+    let report = hot_path::check(&image)?;
+    if report.problems.is_empty() {
+        return Ok(Verdict::Passed(format!("{instructions}; {report}")));
+    }
+    let problems: Vec<_> = report.problems.into_iter().collect();
+    Ok(Verdict::Failed(shown("the hot path isn't all in RAM", &problems)))
+}
+
+/// Looks for instructions that an rv32imc core traps on, with our decoder and with binutils'.
+fn instructions(image: &Image) -> Result {
+    let count = image.instructions().count();
+    if count == 0 {
+        return Ok(Verdict::Failed(format!("{} holds no instructions", image.path.display())));
+    }
+    let foreign: Vec<_> = image.foreign().iter().map(ToString::to_string).collect();
+    if !foreign.is_empty() {
+        return Ok(Verdict::Failed(shown("instructions of A, F or D", &foreign)));
+    }
+    match image.second_opinion()? {
+        Some(unreadable) if !unreadable.is_empty() => {
+            Ok(Verdict::Failed(shown("objdump reads more than rv32imc", &unreadable)))
+        }
+        Some(_) => Ok(Verdict::Passed(format!("{count} instructions, none of A, F or D; objdump agrees"))),
+        None => Ok(Verdict::Passed(format!("{count} instructions, none of A, F or D"))),
+    }
+}
+
+pub(super) fn esp32() -> Result {
+    Ok(match esp32::check()? {
+        Outcome::Built(path) => Verdict::Passed(format!("built {}", path.display())),
+        Outcome::TypeChecked { release } => {
+            Verdict::Passed(format!("a type-check with rustc {release}, not a build: no Xtensa compiler here"))
+        }
+        Outcome::Skipped(why) => Verdict::Skipped(why),
+    })
+}
+
+fn shown(what: &str, findings: &[String]) -> String {
+    let mut text = format!("{what}: {}", findings.len());
+    for finding in findings.iter().take(SHOWN) {
+        text.push_str("\n  ");
+        text.push_str(finding);
+    }
+    if findings.len() > SHOWN {
+        text.push_str("\n  ...");
+    }
+    text
+}

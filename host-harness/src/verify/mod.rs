@@ -1,0 +1,143 @@
+//! `rig verify`: everything that must hold before a change goes in, in one command that also installs what it needs.
+
+mod host;
+mod images;
+mod scenarios;
+mod step;
+mod summary;
+
+use std::time::Instant;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use crate::error::{Error, Kind};
+use step::{Result as StepResult, Step, Verdict};
+use summary::Line;
+
+/// Arguments of `rig verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Prints the steps and does nothing
+    #[arg(long)]
+    list: bool,
+
+    /// Does only this step; may be repeated
+    #[arg(long, value_name = "STEP", value_parser = PossibleValuesParser::new(STEPS.map(|step| step.name)))]
+    only: Vec<String>,
+}
+
+/// The steps in their order; what finds most mistakes in least time comes first.
+const STEPS: [Step; 18] = [
+    Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
+    Step::new("format", "cargo fmt --check", &[], host::format),
+    Step::new("lint", "clippy on the host's crates", &[], host::lint),
+    Step::new("test", "unit, property and documentation tests", &[], host::test),
+    Step::new("doc", "documentation without warnings", &[], host::doc),
+    Step::new("build-qemu_virt", "the image for QEMU", &["provision"], images::build_qemu_virt),
+    Step::new("build-esp32c3", "the image for the ESP32-C3", &["provision"], images::build_esp32c3),
+    Step::new("lint-qemu_virt", "clippy on the firmware for QEMU", &["provision"], images::lint_qemu_virt),
+    Step::new("lint-esp32c3", "clippy on the firmware for the ESP32-C3", &["provision"], images::lint_esp32c3),
+    Step::new(
+        "elf-qemu_virt",
+        "no instruction outside rv32imc in QEMU's image",
+        &["build-qemu_virt"],
+        images::elf_qemu_virt,
+    ),
+    Step::new(
+        "elf-esp32c3",
+        "the same for the ESP32-C3, and its hot path in RAM",
+        &["build-esp32c3"],
+        images::elf_esp32c3,
+    ),
+    Step::new("esp32", "the ESP32's firmware: a build, or else a type-check", &[], images::esp32),
+    Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
+    Step::new("scenes-qemu", "the same bits on QEMU, fixed point", &["build-qemu_virt"], scenarios::qemu_fixed),
+    Step::new("scenes-qemu-f32", "the same bits on QEMU, binary32", &["build-qemu_virt"], scenarios::qemu_f32),
+    Step::new("flip", "one flipped bit on QEMU is noticed and located", &["build-qemu_virt"], scenarios::flip),
+    Step::new(
+        "scenes-esp32c3",
+        "the same bits on an emulated ESP32-C3, fixed point",
+        &["build-esp32c3"],
+        scenarios::esp32c3_fixed,
+    ),
+    Step::new(
+        "scenes-esp32c3-f32",
+        "the same bits on an emulated ESP32-C3, binary32",
+        &["build-esp32c3"],
+        scenarios::esp32c3_f32,
+    ),
+];
+
+/// Goes through the steps; true if none failed. A step that fails stops only those that need it.
+///
+/// # Errors
+/// On Ctrl-C.
+pub fn run(arguments: &VerifyArgs) -> Result<bool, Error> {
+    if arguments.list {
+        summary::list(&STEPS);
+        return Ok(true);
+    }
+    let steps: Vec<_> = STEPS.iter().filter(|step| arguments.chooses(step)).collect();
+    let mut lines: Vec<Line> = Vec::new();
+    for (index, step) in steps.iter().enumerate() {
+        summary::announce(index, steps.len(), step);
+        let started = Instant::now();
+        let verdict = match missing(step, &lines) {
+            Some(needed) => Verdict::Skipped(format!("needs {needed}, which didn't pass")),
+            None => settle((step.check)())?,
+        };
+        let line = Line { step: step.name, verdict, duration: started.elapsed() };
+        summary::report(&line);
+        lines.push(line);
+    }
+    summary::table(&lines);
+    Ok(!lines.iter().any(|line| matches!(line.verdict, Verdict::Failed(_))))
+}
+
+impl VerifyArgs {
+    fn chooses(&self, step: &Step) -> bool {
+        self.only.is_empty() || self.only.iter().any(|name| name == step.name)
+    }
+}
+
+/// A step that this one needs and that was gone through without passing.
+fn missing(step: &Step, done: &[Line]) -> Option<&'static str> {
+    let unmet = |line: &&Line| step.needs.contains(&line.step) && !matches!(line.verdict, Verdict::Passed(_));
+    done.iter().find(unmet).map(|line| line.step)
+}
+
+/// Whatever goes wrong in a step is that step's failure, except that somebody wants out.
+fn settle(result: StepResult) -> Result<Verdict, Error> {
+    match result {
+        Err(error) if error.kind() == Kind::Interrupted => Err(error),
+        Err(error) => Ok(Verdict::Failed(error.to_string())),
+        Ok(verdict) => Ok(verdict),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn steps_need_only_what_comes_before() {
+        for (index, step) in STEPS.iter().enumerate() {
+            for needed in step.needs {
+                assert!(STEPS[..index].iter().any(|before| before.name == *needed), "{} needs {needed}", step.name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_waits_for_what_it_needs_and_for_nothing_else() {
+        let line = |step, verdict| Line { step, verdict, duration: Duration::ZERO };
+        let done = [line("lint", Verdict::Failed("why".into())), line("provision", Verdict::Passed(String::new()))];
+        let step = Step::new("build", "", &["provision"], host::format);
+        assert_eq!(missing(&step, &done), None);
+        let step = Step::new("release", "", &["provision", "lint"], host::format);
+        assert_eq!(missing(&step, &done), Some("lint"));
+    }
+}

@@ -1,0 +1,86 @@
+//! Steps that run scenarios, through the command line that people use.
+
+use std::env;
+use std::process::Command;
+
+use super::step::{Result, Verdict};
+use crate::error::{CHECK_FAILED, Error};
+use crate::firmware::image::{self, Board};
+use crate::firmware::subprocess::{self, Ended};
+
+/// A command that runs an ESP32-C3 image, `{elf}`, with the board's UART0 on its standard input and output.
+const EMULATOR: &str = "FLAT_C3_EMULATOR";
+
+/// Where [`flip`] inverts a bit: after which stage of which step, which body, which bit of its velocity.
+const FLIP: (u32, &str, u16, u8) = (37, "solve_velocity", 12, 3);
+
+pub(super) fn mock() -> Result {
+    rig(&["--target", "mock"])
+}
+
+pub(super) fn qemu_fixed() -> Result {
+    rig(&["--target", "mock,qemu", "--scalar", "fixed"])
+}
+
+pub(super) fn qemu_f32() -> Result {
+    rig(&["--target", "mock,qemu", "--scalar", "f32"])
+}
+
+pub(super) fn esp32c3_fixed() -> Result {
+    esp32c3("fixed")
+}
+
+pub(super) fn esp32c3_f32() -> Result {
+    esp32c3("f32")
+}
+
+fn esp32c3(scalar: &str) -> Result {
+    let Ok(command) = env::var(EMULATOR) else {
+        return Ok(Verdict::Skipped(format!(
+            "no emulator for the ESP32-C3: set {EMULATOR} to a command with {{elf}} for the image and the UART on its \
+             standard input and output"
+        )));
+    };
+    if !command.contains("{elf}") {
+        return Err(Error::usage(format!("{EMULATOR} is `{command}`, without {{elf}}"), "say where the image goes"));
+    }
+    let elf = image::build(Board::Esp32c3)?;
+    let command = command.replace("{elf}", &shell_words::quote(&elf.to_string_lossy()));
+    rig(&["--target", "mock", "--target", &format!("exec:{command}"), "--scalar", scalar])
+}
+
+/// A comparison that cannot fail proves nothing: here it must fail, and say where.
+pub(super) fn flip() -> Result {
+    let (step, stage, body, bit) = FLIP;
+    let point = format!("{step}:{stage}:{body}:{bit}");
+    let ended = run(&["ball_pit", "--target", "mock,qemu", "--flip", &point])?;
+    let named = [format!("step {step}"), stage.to_owned(), format!("body {body}")];
+    let missing: Vec<_> = named.iter().filter(|name| !ended.output.contains(*name)).collect();
+    if ended.code != Some(i32::from(CHECK_FAILED)) {
+        Ok(Verdict::Failed(format!(
+            "a bit was flipped and rig ended with {:?}:\n{}",
+            ended.code,
+            ended.output.trim_end()
+        )))
+    } else if missing.is_empty() {
+        Ok(Verdict::Passed(format!("located: {}", named.join(", "))))
+    } else {
+        Ok(Verdict::Failed(format!("the failure doesn't name {missing:?}:\n{}", ended.output.trim_end())))
+    }
+}
+
+fn rig(arguments: &[&str]) -> Result {
+    let ended = run(arguments)?;
+    let output = ended.output.trim_end();
+    if ended.success {
+        Ok(Verdict::Passed(output.lines().last().unwrap_or_default().trim().to_owned()))
+    } else {
+        Ok(Verdict::Failed(format!("cargo rig run {}\n{output}", shell_words::join(arguments))))
+    }
+}
+
+/// Runs `rig run` with this very program.
+fn run(arguments: &[&str]) -> core::result::Result<Ended, Error> {
+    let program = env::current_exe().map_err(|error| Error::target(format!("cannot find rig itself: {error}"), ""))?;
+    subprocess::watch("rig run", Command::new(program).arg("run").args(arguments))
+}
