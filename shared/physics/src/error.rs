@@ -2,8 +2,8 @@
 
 use core::fmt;
 
+use crate::handle::Handle;
 use crate::scalar::{Scalar, px};
-use crate::world::Handle;
 
 /// Why a call was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]

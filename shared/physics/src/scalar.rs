@@ -21,7 +21,7 @@ use core::ops::{Add, Neg, Sub};
 
 use ::fixed::types::I16F16;
 
-use crate::vec2::Vec2;
+use crate::vec2::{Vec2, vec2};
 pub use fixed_point::Fixed;
 
 /// Largest coordinate of a body's centre, px. A body beyond it is disabled and reported.
@@ -83,6 +83,22 @@ pub trait Quantity:
     #[must_use]
     fn held(self, limit: Self) -> Self {
         self.lesser(limit).greater(-limit)
+    }
+}
+
+impl<T: Quantity> Vec2<T> {
+    /// Sum, each component held at the end of the format.
+    #[inline]
+    #[must_use]
+    pub fn saturating_add(self, other: Self) -> Self {
+        vec2(self.x.saturating_add(other.x), self.y.saturating_add(other.y))
+    }
+
+    /// Difference, each component held at the end of the format.
+    #[inline]
+    #[must_use]
+    pub fn saturating_sub(self, other: Self) -> Self {
+        vec2(self.x.saturating_sub(other.x), self.y.saturating_sub(other.y))
     }
 }
 

@@ -5,6 +5,7 @@ use crate::config::Config;
 use crate::contact::{Contact, Pool};
 use crate::effects::Effects;
 use crate::error::Error;
+use crate::handle::Handle;
 use crate::pipeline::broadphase::Layers;
 use crate::scalar::{Quantity, Scalar};
 use crate::vec2::Vec2;
@@ -58,25 +59,6 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Storage<S, BODIES, C
 impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Default for Storage<S, BODIES, CONTACTS> {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-/// Names a body. A handle outlives its body without harm: it then names nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Handle {
-    slot: u16,
-    generation: u16,
-}
-
-impl Handle {
-    /// Place of the body in the world's storage.
-    pub fn slot(self) -> u16 {
-        self.slot
-    }
-
-    /// How many bodies the slot had held before (modulo 65 536).
-    pub fn generation(self) -> u16 {
-        self.generation
     }
 }
 

@@ -14,8 +14,7 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
         let body = &mut world.bodies[usize::from(slot)];
         let scale = world.profiles[usize::from(slot)].gravity_scale;
         let pull = if scale == S::ONE { gravity } else { gravity.map(|g| S::speed_scaled(g, scale)) };
-        body.velocity.x = body.velocity.x.saturating_add(pull.x);
-        body.velocity.y = body.velocity.y.saturating_add(pull.y);
+        body.velocity = body.velocity.saturating_add(pull);
     }
 }
 

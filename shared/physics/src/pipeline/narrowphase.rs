@@ -4,7 +4,6 @@
 
 use crate::body::{Body, Profile};
 use crate::contact::{Contact, Pool};
-use crate::pipeline::velocity::relative;
 use crate::scalar::{Quantity, Scalar};
 use crate::vec2::{Vec2, vec2};
 
@@ -26,7 +25,7 @@ pub(crate) fn touch<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], profiles: &[P
     let Some(Manifold { normal, penetration }) = collide(first, second) else {
         return;
     };
-    let approach = -S::speed_along(relative::<S>(first.velocity, second.velocity), normal);
+    let approach = -S::speed_along(second.velocity.saturating_sub(first.velocity), normal);
     let share = if second.status.is_static() { S::UNIT } else { S::mass_share(own.mass, other.mass) };
     pool.push(Contact {
         a,

@@ -13,14 +13,13 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>) {
         }
         let correction = S::length_scaled(contact.penetration - slop, bias);
         let apart = contact.normal.map(|n| S::length_times(correction, n));
+        let part = |share| apart.map(|length| S::length_times(length, share));
         let a = &mut world.bodies[usize::from(contact.a)].position;
-        a.x = a.x.saturating_sub(S::length_times(apart.x, contact.share));
-        a.y = a.y.saturating_sub(S::length_times(apart.y, contact.share));
+        *a = a.saturating_sub(part(contact.share));
         let other = contact.other_share();
         if other != S::Unit::ZERO {
             let b = &mut world.bodies[usize::from(contact.b)].position;
-            b.x = b.x.saturating_add(S::length_times(apart.x, other));
-            b.y = b.y.saturating_add(S::length_times(apart.y, other));
+            *b = b.saturating_add(part(other));
         }
     }
 }

@@ -18,29 +18,17 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
         for contact in world.pool.all_mut() {
             let a = world.bodies[usize::from(contact.a)].velocity;
             let b = world.bodies[usize::from(contact.b)].velocity;
-            let Some(change) = impulse(contact, relative::<S>(a, b), threshold, switches) else {
+            let Some(change) = impulse(contact, b.saturating_sub(a), threshold, switches) else {
                 continue;
             };
-            let own = contact.share;
-            world.bodies[usize::from(contact.a)].velocity = vec2(
-                a.x.saturating_sub(S::speed_times(change.x, own)),
-                a.y.saturating_sub(S::speed_times(change.y, own)),
-            );
+            let part = |share| change.map(|speed| S::speed_times(speed, share));
+            world.bodies[usize::from(contact.a)].velocity = a.saturating_sub(part(contact.share));
             let other = contact.other_share();
             if other != S::Unit::ZERO {
-                world.bodies[usize::from(contact.b)].velocity = vec2(
-                    b.x.saturating_add(S::speed_times(change.x, other)),
-                    b.y.saturating_add(S::speed_times(change.y, other)),
-                );
+                world.bodies[usize::from(contact.b)].velocity = b.saturating_add(part(other));
             }
         }
     }
-}
-
-/// Velocity of `b` as seen from `a`.
-#[inline]
-pub(crate) fn relative<S: Scalar>(a: Vec2<S::Speed>, b: Vec2<S::Speed>) -> Vec2<S::Speed> {
-    vec2(b.x.saturating_sub(a.x), b.y.saturating_sub(a.y))
 }
 
 /// The change of relative velocity that a contact calls for; none if its bodies part.
@@ -71,8 +59,7 @@ fn impulse<S: Scalar>(
         let most = S::speed_scaled(along_normal, contact.friction);
         let along_tangent = -S::speed_along(relative, tangent).held(most);
         contact.impulse.y = contact.impulse.y.saturating_add(along_tangent);
-        change.x = change.x.saturating_add(S::speed_times(along_tangent, tangent.x));
-        change.y = change.y.saturating_add(S::speed_times(along_tangent, tangent.y));
+        change = change.saturating_add(tangent.map(|t| S::speed_times(along_tangent, t)));
     }
     Some(change)
 }
