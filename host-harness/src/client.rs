@@ -43,11 +43,11 @@ impl Client {
         client.link.send(&[0])?;
         match client.request(&Command::Hello { protocol: PROTOCOL_VERSION }) {
             Ok(Reply::Hello(hello)) if hello.protocol == PROTOCOL_VERSION => Ok((client, hello)),
-            Ok(Reply::Hello(hello)) => Err(client.other_protocol(&format!("version {}", hello.protocol))),
+            Ok(Reply::Hello(hello)) => Err(client.other_protocol(&format!("protocol version {}", hello.protocol))),
             Ok(other) => Err(client.unexpected("hello", &other)),
             // Intact frames that make no sense are the other way for a version to show.
             Err(error) if error.kind() == Kind::Target && client.undecodable > 0 => {
-                Err(client.other_protocol("another version, whose frames arrive intact but mean nothing here"))
+                Err(client.other_protocol("another protocol: its frames arrive intact but mean nothing here"))
             }
             Err(error) => Err(error),
         }
@@ -147,7 +147,7 @@ impl Client {
     fn other_protocol(&self, theirs: &str) -> Error {
         Error::new(
             Kind::Protocol,
-            format!("{} speaks protocol {theirs}; this rig speaks version {PROTOCOL_VERSION}", self.name),
+            format!("{} speaks {theirs}; this rig speaks version {PROTOCOL_VERSION}", self.name),
             REBUILD,
         )
     }

@@ -101,7 +101,11 @@ impl Toolchain {
         let Some(compiler) = candidates.iter().find(|compiler| compiler.library_source().is_some()) else {
             return Err(Error::target(
                 format!("no compiler for {RISCV_TARGET}"),
-                format!("`rustup target add {RISCV_TARGET}`, or on Debian `apt install {}`", DEBIAN_COMPILER.join(" ")),
+                format!(
+                    "`cargo verify`, which installs it where it may, `rustup target add {RISCV_TARGET}`, or on Debian \
+                     `apt install {}`",
+                    DEBIAN_COMPILER.join(" ")
+                ),
             ));
         };
         let linker = candidates.iter().find_map(Compiler::bundled_linker).or_else(installed_lld);
