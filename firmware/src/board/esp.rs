@@ -20,9 +20,6 @@ pub(crate) type Transmitter = UartTx<'static, Async>;
 // Tells the boot loader and espflash what this image is.
 esp_bootloader_esp_idf::esp_app_desc!();
 
-/// Rate of the link, the highest that common USB bridges do without errors.
-const BAUD: u32 = 921_600;
-
 /// Bytes in the 128-byte receive FIFO that wake the receiver, or the time of so many without another: the rest of the
 /// FIFO, 0.7 ms, is what a step may take before a host that floods the link loses bytes.
 const WAKE_AT: u16 = 64;
@@ -35,7 +32,7 @@ pub(super) fn open(
     tx: impl PeripheralOutput<'static>,
 ) -> (Receiver, Transmitter) {
     let config = Config::default()
-        .with_baudrate(BAUD)
+        .with_baudrate(flat_wire::BAUD)
         .with_rx(RxConfig::default().with_fifo_full_threshold(WAKE_AT).with_timeout(WAKE_AFTER));
     let uart = Uart::new(uart, config).expect("rate and thresholds within the chip's range");
     uart.with_rx(rx).with_tx(tx).into_async().split()

@@ -81,7 +81,7 @@ impl fmt::Display for Target {
         match self {
             Self::Mock => f.write_str("mock"),
             Self::Qemu => f.write_str("qemu"),
-            Self::Serial { path, baud: serial::DEFAULT_BAUD } => write!(f, "serial:{path}"),
+            Self::Serial { path, baud: flat_wire::BAUD } => write!(f, "serial:{path}"),
             Self::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
             Self::Tcp(address) => write!(f, "tcp:{address}"),
             Self::Exec(command) => write!(f, "exec:{command}"),
@@ -116,13 +116,13 @@ fn parse(word: &str) -> Result<Target, String> {
     match (kind, argument) {
         ("mock", "") => Ok(Target::Mock),
         ("qemu", "") => Ok(Target::Qemu),
-        ("serial", "") => Err("serial: needs a port, as in serial:/dev/ttyACM0 or serial:COM3@921600".into()),
+        ("serial", "") => Err("serial: needs a port, as in serial:/dev/ttyACM0 or serial:COM3@115200".into()),
         ("serial", port) => {
             let (path, baud) = match port.rsplit_once('@') {
                 Some((path, baud)) => {
                     (path, baud.parse().map_err(|_| format!("serial: `{baud}` isn't a speed in baud"))?)
                 }
-                None => (port, serial::DEFAULT_BAUD),
+                None => (port, flat_wire::BAUD),
             };
             Ok(Target::Serial { path: path.into(), baud })
         }
@@ -148,11 +148,17 @@ mod tests {
 
     #[test]
     fn a_target_reads_back_what_it_prints() {
-        for text in ["mock", "qemu", "serial:/dev/ttyACM0", "serial:COM3@921600", "tcp:localhost:5555", "exec:a 'b c'"]
+        for text in ["mock", "qemu", "serial:/dev/ttyACM0", "serial:COM3@115200", "tcp:localhost:5555", "exec:a 'b c'"]
         {
             let TargetList(targets) = text.parse().unwrap();
             assert_eq!(targets.iter().map(ToString::to_string).collect::<Vec<_>>(), [text]);
         }
+    }
+
+    #[test]
+    fn a_port_without_a_speed_has_the_speed_that_the_firmware_sets() {
+        let TargetList(targets) = "serial:/dev/ttyUSB0".parse().unwrap();
+        assert_eq!(targets, [Target::Serial { path: "/dev/ttyUSB0".into(), baud: flat_wire::BAUD }]);
     }
 
     #[test]

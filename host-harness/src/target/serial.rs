@@ -5,9 +5,6 @@ use std::time::Duration;
 use super::link::{Link, Peer};
 use crate::error::Error;
 
-/// Speed of boards that name none. USB serial ports ignore it.
-pub const DEFAULT_BAUD: u32 = 115_200;
-
 /// Opens a port.
 ///
 /// # Errors

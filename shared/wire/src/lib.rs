@@ -53,3 +53,7 @@ pub use frame::{EncodeError, MAX_FRAME, MAX_MESSAGE, encode};
 
 /// Version of the message table. Host and device must agree.
 pub const PROTOCOL_VERSION: u16 = 1;
+
+/// Rate of a UART between device and host, baud, where nobody names another: the highest that common USB bridges do
+/// without errors.
+pub const BAUD: u32 = 921_600;
