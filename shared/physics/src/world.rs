@@ -208,12 +208,22 @@ impl<S: Scalar> World<'_, S> {
 
     /// All bodies, by ascending slot.
     pub fn bodies(&self) -> impl Iterator<Item = BodyView<S>> {
-        self.slots().map(|(slot, body)| self.view(slot, body))
+        self.bodies_from(0)
+    }
+
+    /// The bodies in a slot and those after it, by ascending slot: for reading them in parts.
+    pub fn bodies_from(&self, slot: u16) -> impl Iterator<Item = BodyView<S>> {
+        self.slots_from(slot).map(|(slot, body)| self.view(slot, body))
     }
 
     /// The contacts of the last step, in the order in which the solver took them.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView<S>> {
-        self.pool.all().iter().map(|contact| ContactView {
+        self.contacts_from(0)
+    }
+
+    /// The contacts of the last step without so many first ones: for reading them in parts.
+    pub fn contacts_from(&self, place: u16) -> impl Iterator<Item = ContactView<S>> {
+        self.pool.all().iter().skip(usize::from(place)).map(|contact| ContactView {
             bodies: [self.handle(contact.a), self.handle(contact.b)],
             normal: contact.normal,
             penetration: contact.penetration,
@@ -277,9 +287,10 @@ impl<S: Scalar> World<'_, S> {
         Ok(())
     }
 
-    /// The slots that hold a body.
-    pub(crate) fn slots(&self) -> impl Iterator<Item = (u16, &Body<S>)> {
-        (0..self.used).zip(self.bodies.iter()).filter(|(_, body)| body.status.is_taken())
+    /// The slots that hold a body, from one on.
+    pub(crate) fn slots_from(&self, slot: u16) -> impl Iterator<Item = (u16, &Body<S>)> {
+        let bodies = self.bodies.iter().skip(usize::from(slot));
+        (slot..self.used).zip(bodies).filter(|(_, body)| body.status.is_taken())
     }
 
     fn apply(&mut self, config: Config<S>) {

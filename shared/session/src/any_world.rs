@@ -93,7 +93,7 @@ impl<S: Scalar> AnyWorld for World<'_, S> {
     }
 
     fn holds(&self, slot: u16) -> bool {
-        self.bodies().any(|body| body.handle.slot() == slot)
+        self.bodies_from(slot).next().is_some_and(|body| body.handle.slot() == slot)
     }
 
     fn flip(&mut self, slot: u16, bit: u8) {
@@ -119,8 +119,7 @@ impl<S: Scalar> AnyWorld for World<'_, S> {
     }
 
     fn contacts(&self, from: u16) -> Vec<ContactState, CONTACTS_PER_FRAME> {
-        World::contacts(self)
-            .skip(usize::from(from))
+        self.contacts_from(from)
             .take(CONTACTS_PER_FRAME)
             .map(|contact| ContactState {
                 bodies: contact.bodies.map(Handle::slot),
@@ -138,7 +137,7 @@ fn listed<S: Scalar, T, const N: usize>(
     from: u16,
     entry: impl Fn(BodyView<S>) -> T,
 ) -> Vec<T, N> {
-    world.bodies().filter(|body| body.handle.slot() >= from).take(N).map(entry).collect()
+    world.bodies_from(from).take(N).map(entry).collect()
 }
 
 /// A text for the host; what doesn't fit is cut off.

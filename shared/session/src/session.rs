@@ -165,7 +165,7 @@ impl<'a> Session<'a> {
             run.emission = None;
         }
         if run.remaining == 0 {
-            run.held = !finish(scene.step, world.digest(), run, self.dropped, &mut self.sender, sink);
+            run.held = !finish(scene.step, run, self.dropped, &mut self.sender, sink);
             if !run.held {
                 self.run = None;
             }
@@ -183,18 +183,21 @@ impl<'a> Session<'a> {
         if let Some(flip) = self.flip.take_if(|flip| flip.point == here) {
             world.flip(flip.body, flip.bit);
         }
-        if self.stream.stage_digests {
+        let ends_step = run.stage + 1 == STAGES;
+        if ends_step || self.stream.stage_digests {
             run.record.digests[run.stage] = world.digest();
         }
         let watched = self.watch.take_if(|point| *point == here).is_some();
-        run.stage += 1;
-        if run.stage == STAGES {
+        if ends_step {
             (run.stage, run.owed, run.remaining) = (0, run.owed - 1, run.remaining - 1);
             scene.step = step;
             run.record.backlog_us = run.scheduler.backlog_us();
             run.emission = Some(Emission::of_step(step, if watched { everything(self.stream) } else { self.stream }));
-        } else if watched {
-            run.emission = Some(Emission::of_point(here, everything(self.stream)));
+        } else {
+            run.stage += 1;
+            if watched {
+                run.emission = Some(Emission::of_point(here, everything(self.stream)));
+            }
         }
         true
     }
@@ -246,7 +249,7 @@ impl<'a> Session<'a> {
             known_us: now_us,
             owed: 0,
             stage: 0,
-            record: Record::default(),
+            record: Record::new(self.worlds.of(scene.scalar).digest()),
             emission: None,
             held: false,
             dropped_before: self.dropped,
@@ -303,11 +306,11 @@ impl<'a> Session<'a> {
 }
 
 /// Sends the end of a run; false if there was no room yet.
-fn finish(step: u32, digest: u64, run: &Run, dropped: Dropped, sender: &mut Sender, sink: &mut dyn Sink) -> bool {
+fn finish(step: u32, run: &Run, dropped: Dropped, sender: &mut Sender, sink: &mut dyn Sink) -> bool {
     let before = run.dropped_before;
     let frame = Frame::Finished {
         step,
-        digest,
+        digest: run.record.digest(),
         dropped_detail: dropped.detail - before.detail,
         dropped_steps: dropped.steps - before.steps,
     };

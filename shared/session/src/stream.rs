@@ -9,9 +9,24 @@ use crate::sink::{Class, Sender, Sink};
 /// Measurements of the step under way.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Record {
+    /// Digest after each stage that was asked for, and always after the last.
     pub(crate) digests: [u64; STAGES],
     pub(crate) counts: [u32; STAGES],
     pub(crate) backlog_us: u64,
+}
+
+impl Record {
+    /// Nothing measured yet; the state has this digest.
+    pub(crate) fn new(digest: u64) -> Self {
+        let mut digests = [0; STAGES];
+        digests[STAGES - 1] = digest;
+        Self { digests, ..Self::default() }
+    }
+
+    /// Digest after the last step that has ended.
+    pub(crate) fn digest(&self) -> u64 {
+        self.digests[STAGES - 1]
+    }
 }
 
 /// Frames dropped because the line was slow.
@@ -90,7 +105,7 @@ impl Emission {
         loop {
             part = match part {
                 Part::Step => {
-                    let digest = world.digest();
+                    let digest = record.digest();
                     return Some((Class::Step, Frame::Step { step, digest }, Part::StageDigests));
                 }
                 Part::StageDigests if self.request.stage_digests => {
