@@ -201,19 +201,12 @@ fn verdict(job: &Job, target: &Target, rerun: String, trace: &Trace, mut checks:
     checks.insert(0, Finding::count("digest of every step", job.steps, job.steps - missing.len() as u32, &lost));
     checks.push(Finding::count("last step", job.steps, trace.end.step, ""));
     Verdict {
-        scene: job.scene.name.into(),
-        parameters: job.reported(),
-        target: target.to_string(),
-        label: target.label(),
-        passed: checks.iter().all(|finding| finding.outcome != Outcome::Failed),
         steps: trace.end.step,
         digest: Some(trace.end.digest),
-        checks,
-        divergence: None,
         frames: trace.frames,
         counters: trace.counters,
         duration: trace.duration,
-        rerun,
+        ..Verdict::before_any_step(job, target, rerun, checks)
     }
 }
 
@@ -230,19 +223,5 @@ fn refused(job: &Job, target: &Target, rerun: String, error: &Error) -> Verdict 
         limit: None,
         unit: "",
     };
-    Verdict {
-        scene: job.scene.name.into(),
-        parameters: job.reported(),
-        target: target.to_string(),
-        label: target.label(),
-        passed: false,
-        steps: 0,
-        digest: None,
-        checks: vec![finding],
-        divergence: None,
-        frames: Frames::default(),
-        counters: None,
-        duration: std::time::Duration::ZERO,
-        rerun,
-    }
+    Verdict::before_any_step(job, target, rerun, vec![finding])
 }

@@ -15,6 +15,7 @@ mod firmware;
 mod interrupt;
 mod job;
 mod number;
+mod process_group;
 mod report;
 mod run;
 mod target;

@@ -1,7 +1,4 @@
 //! `rig run`: every scenario on the mock as reference and on every target, and what came of it.
-//!
-//! The full state of every step is cheap on the mock and dear on a link. So promises are checked on the mock, and a
-//! target streams digests alone: equal digests at every step are equal states, for which the promises hold as well.
 
 use std::time::Instant;
 

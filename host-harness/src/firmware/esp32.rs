@@ -161,7 +161,7 @@ impl Copies {
 
     /// Copies core and takes its assembly macros away; the rest of the library is linked to.
     fn copy_library(&self, library: &Path) -> Result<(), Error> {
-        for name in entries(library)? {
+        for name in workspace::entries(library)? {
             let (from, to) = (library.join(&name), self.library.join(&name));
             if name == "core" {
                 copy_tree(&from, &to)?;
@@ -248,23 +248,17 @@ fn remove(directory: &Path) -> Result<(), Error> {
     }
 }
 
-fn entries(directory: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
-    fs::read_dir(directory)
-        .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.file_name())).collect())
-        .map_err(|error| Error::target(format!("cannot list {}: {error}", directory.display()), ""))
-}
-
 fn copy_tree(from: &Path, to: &Path) -> Result<(), Error> {
     if !from.is_dir() {
         return fs::copy(from, to).map(drop).map_err(|error| unwritable(to, &error));
     }
     fs::create_dir_all(to).map_err(|error| unwritable(to, &error))?;
-    entries(from)?.iter().try_for_each(|name| copy_tree(&from.join(name), &to.join(name)))
+    workspace::entries(from)?.iter().try_for_each(|name| copy_tree(&from.join(name), &to.join(name)))
 }
 
 fn rust_files(directory: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
-    for name in entries(directory)? {
+    for name in workspace::entries(directory)? {
         let path = directory.join(name);
         if path.is_dir() {
             files.extend(rust_files(&path)?);

@@ -4,12 +4,13 @@ use std::io::{BufRead, BufReader, ErrorKind, PipeReader};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::error::Error;
 use crate::interrupt;
+use crate::process_group;
 
 /// How long an interrupted program may take to clean up before it is killed.
 const GRACE: Duration = Duration::from_secs(5);
@@ -62,9 +63,7 @@ pub fn watch(title: &str, command: &mut Command) -> Result<Ended, Error> {
     // One pipe for both streams keeps their lines in order.
     let (output, input) = std::io::pipe().map_err(broken)?;
     command.stdin(Stdio::null()).stdout(input.try_clone().map_err(broken)?).stderr(input);
-    // A group of its own: whatever the program starts can be ended with it.
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
+    process_group::lead(command);
     let mut running = Running(command.spawn().map_err(broken)?);
     // The command still holds the pipe's writing ends, without which the reader would never see the end.
     command.stdout(Stdio::null()).stderr(Stdio::null());
@@ -121,23 +120,7 @@ impl Drop for Running {
         if matches!(self.0.try_wait(), Ok(Some(_))) {
             return;
         }
-        #[cfg(unix)]
-        {
-            use nix::sys::signal::{Signal, killpg};
-            let group = nix::unistd::Pid::from_raw(self.0.id().cast_signed());
-            // Errors mean: gone already.
-            let _ = killpg(group, Signal::SIGTERM);
-            let until = Instant::now() + GRACE;
-            while Instant::now() < until {
-                if matches!(self.0.try_wait(), Ok(Some(_))) {
-                    return;
-                }
-                thread::sleep(Duration::from_millis(20));
-            }
-            let _ = killpg(group, Signal::SIGKILL);
-        }
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        process_group::end(&mut self.0, Some(GRACE));
     }
 }
 

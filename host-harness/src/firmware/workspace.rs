@@ -1,6 +1,7 @@
 //! The source tree that this `rig` was built from.
 
 use std::env;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -82,9 +83,10 @@ fn build_id_of(root: &Path) -> Result<String, Error> {
 /// Adds a file, or all files below a directory in the order of their names.
 fn hash_tree(root: &Path, relative: &Path, hash: &mut Fnv1a) -> Result<(), Error> {
     let path = root.join(relative);
-    let unreadable = |error| Error::target(format!("cannot read {}: {error}", path.display()), "check its permissions");
     if !path.is_dir() {
-        let contents = fs::read(&path).map_err(unreadable)?;
+        let contents = fs::read(&path).map_err(|error| {
+            Error::target(format!("cannot read {}: {error}", path.display()), "check its permissions")
+        })?;
         // Lengths and a separator-independent name keep one tree from hashing like another.
         for component in relative {
             hash.add(component.as_encoded_bytes());
@@ -94,11 +96,21 @@ fn hash_tree(root: &Path, relative: &Path, hash: &mut Fnv1a) -> Result<(), Error
         hash.add(&contents);
         return Ok(());
     }
-    let mut names = fs::read_dir(&path)
+    entries(&path)?.iter().try_for_each(|name| hash_tree(root, &relative.join(name), hash))
+}
+
+/// The names in a directory, in their order.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn entries(directory: &Path) -> Result<Vec<OsString>, Error> {
+    let mut names = fs::read_dir(directory)
         .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.file_name())).collect::<Result<Vec<_>, _>>())
-        .map_err(unreadable)?;
+        .map_err(|error| {
+            Error::target(format!("cannot list {}: {error}", directory.display()), "check its permissions")
+        })?;
     names.sort_unstable();
-    names.iter().try_for_each(|name| hash_tree(root, &relative.join(name), hash))
+    Ok(names)
 }
 
 /// The 64-bit hash of Fowler, Noll and Vo, variant 1a: no defence against malice, plenty against a stale image.

@@ -10,8 +10,9 @@ use std::time::Duration;
 use flat_wire::message::{Hello, Level, Order, ScalarKind, Statistics};
 use serde::{Serialize, Serializer};
 
-use crate::check::Finding;
+use crate::check::{Finding, Outcome};
 use crate::compare::Divergence;
+use crate::job::Job;
 use crate::target::Target;
 
 /// What is known of a target.
@@ -135,6 +136,27 @@ pub struct Verdict {
     pub duration: Duration,
     /// The command that runs just this again.
     pub rerun: String,
+}
+
+impl Verdict {
+    /// The verdict that these checks give on a job of which no step was run.
+    pub fn before_any_step(job: &Job, target: &Target, rerun: String, checks: Vec<Finding>) -> Self {
+        Self {
+            scene: job.scene.name.into(),
+            parameters: job.reported(),
+            target: target.to_string(),
+            label: target.label(),
+            passed: checks.iter().all(|finding| finding.outcome != Outcome::Failed),
+            steps: 0,
+            digest: None,
+            checks,
+            divergence: None,
+            frames: Frames::default(),
+            counters: None,
+            duration: Duration::ZERO,
+            rerun,
+        }
+    }
 }
 
 fn lowercase<T: std::fmt::Debug, S: Serializer>(name: &T, to: S) -> Result<S::Ok, S::Error> {

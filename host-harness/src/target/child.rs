@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::link::{Link, Peer};
 use crate::error::Error;
+use crate::process_group;
 
 /// Lines of the program's standard error that are kept for its obituary.
 const LAST_WORDS: usize = 8;
@@ -22,9 +23,7 @@ const GRACE: Duration = Duration::from_millis(300);
 pub fn spawn(command: &mut Command, install: &str) -> Result<Link, Error> {
     let program = command.get_program().to_string_lossy().into_owned();
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    // A group of its own: the terminal's Ctrl-C goes to rig alone, and whatever the program starts dies with it.
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
+    process_group::lead(command);
     let mut child = command.spawn().map_err(|error| {
         let next = if error.kind() == ErrorKind::NotFound { install } else { "" };
         Error::target(format!("cannot start `{program}`: {error}"), next)
@@ -70,14 +69,7 @@ impl Peer for Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // The group first, while the unreaped leader still keeps its number taken. Errors mean: gone already.
-        #[cfg(unix)]
-        {
-            use nix::sys::signal::{Signal, killpg};
-            let _ = killpg(nix::unistd::Pid::from_raw(self.child.id().cast_signed()), Signal::SIGKILL);
-        }
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        process_group::end(&mut self.child, None);
     }
 }
 

@@ -6,6 +6,7 @@ use std::process::Command;
 use super::child;
 use super::link::Link;
 use crate::error::Error;
+use crate::firmware::provision::QEMU;
 
 /// The board. `lowrisc-ibex` is exactly rv32imc: atomics and floats trap, as on an ESP32-C3.
 /// `shift=3` runs 125 million instructions a virtual second; `sleep=off` doesn't wait for the wall clock.
@@ -23,7 +24,7 @@ pub fn open(elf: &Path) -> Result<Link, Error> {
             "leave --elf out and rig builds the image itself",
         ));
     }
-    let mut command = Command::new("qemu-system-riscv32");
+    let mut command = Command::new(QEMU);
     command.args(MACHINE.split_whitespace()).arg("-kernel").arg(elf);
     child::spawn(&mut command, "`cargo verify` installs it; or by hand: apt install qemu-system-misc")
 }
