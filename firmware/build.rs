@@ -7,9 +7,9 @@ use std::{env, fs, io};
 type Board = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
 const BOARDS: [Board; 3] = [
-    ("qemu_virt", "riscv32", "riscv32imc-unknown-none-elf", &["-Tmemory.x", "-Tlink.x"]),
-    ("esp32c3", "riscv32", "riscv32imc-unknown-none-elf", &["-Tlinkall.x"]),
-    ("esp32", "xtensa", "xtensa-esp32-none-elf", &["-nostartfiles", "-Wl,-Tlinkall.x"]),
+    ("qemu_virt", "riscv32", "riscv32imc-unknown-none-elf", &["-Tmemory.x", "-Tlink.x", "-Tdefmt.x"]),
+    ("esp32c3", "riscv32", "riscv32imc-unknown-none-elf", &["-Tlinkall.x", "-Tdefmt.x"]),
+    ("esp32", "xtensa", "xtensa-esp32-none-elf", &["-nostartfiles", "-Wl,-Tlinkall.x", "-Wl,-Tdefmt.x"]),
 ];
 
 fn main() -> io::Result<()> {
@@ -27,10 +27,13 @@ fn main() -> io::Result<()> {
     let out = env::var("OUT_DIR").expect("cargo sets OUT_DIR");
     let memory = if *name == "qemu_virt" { "qemu_virt" } else { "esp" };
     provide(&format!("{memory}.x"), Path::new(&out).join("board-memory.x"))?;
-    provide("rwtext_hook.x", Path::new(&out).join("rwtext_hook.x"))?;
+    for hook in ["rwtext_hook.x", "rwdata_hook.x"] {
+        provide(hook, Path::new(&out).join(hook))?;
+    }
     println!("cargo::rustc-link-search={out}");
     for arg in *link_args {
         println!("cargo::rustc-link-arg-bins={arg}");
+        println!("cargo::rustc-link-arg-examples={arg}");
     }
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=../memory.x");

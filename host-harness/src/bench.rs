@@ -3,18 +3,19 @@
 //! The full state of every step is cheap on the mock and dear on a link. So promises are checked on the mock, and a
 //! target streams digests alone: equal digests at every step are equal states, for which the promises hold as well.
 
-use flat_wire::message::{Detail, Flip, Frame, StreamRequest};
+use flat_wire::message::Flip;
 
-use crate::check::{self, Bodies, Finding, Outcome};
+use crate::check::{Finding, Outcome};
 use crate::cli::RunArgs;
 use crate::client::Client;
-use crate::collect::Collector;
 use crate::compare::{self, Side};
 use crate::drive;
 use crate::error::{Error, Kind};
 use crate::job::Job;
+use crate::observe::Observer;
 use crate::report::terminal::{self, Columns};
 use crate::report::{Frames, Identity, Verdict};
+use crate::target::qemu::Speed;
 use crate::target::{Means, Target};
 use crate::trace::Trace;
 
@@ -42,7 +43,12 @@ impl Bench {
     /// # Errors
     /// If a target isn't there, goes away, falls silent or speaks another protocol; on Ctrl-C.
     pub fn run(&mut self, jobs: &[Job], arguments: &RunArgs) -> Result<(), Error> {
-        let means = Means { elf: arguments.elf.clone(), patience: arguments.timeout() };
+        let means = Means {
+            elf: arguments.elf.clone(),
+            speed: Speed::Board,
+            patience: arguments.timeout(),
+            reset: arguments.reset.choice(),
+        };
         let (mut reference, ours) = connect(&Target::Mock, &means)?;
         let mut stations = self.open(arguments, &means, &ours)?;
         let columns =
@@ -50,7 +56,7 @@ impl Bench {
         for job in jobs {
             let (expected, promises) = run_reference(&mut reference, job)?;
             for station in &mut stations {
-                let rerun = arguments.rerun(job.scene.name, &station.target);
+                let rerun = arguments.rerun(job, &station.target);
                 let verdict = match &mut station.client {
                     None => verdict(job, &station.target, rerun, &expected, promises.clone()),
                     Some(client) => {
@@ -60,6 +66,9 @@ impl Bench {
                     }
                 };
                 columns.print(&verdict);
+                if arguments.figures {
+                    terminal::print_figures(&verdict);
+                }
                 self.verdicts.push(verdict);
             }
         }
@@ -109,37 +118,14 @@ fn check_flip(flip: Option<Flip>, built: &Trace) -> Result<(), Error> {
 
 /// Runs a job on the mock and checks what the scene promises on the full state of every step.
 fn run_reference(client: &mut Client, job: &Job) -> Result<(Trace, Vec<Finding>), Error> {
-    let mut bodies = Bodies::of(job.scene, &job.parameters, job.request.scalar);
-    let mut checks = check::checks(&job.scene.promises(&job.parameters, job.level), &bodies);
-    let mut states = Collector::new();
-    let mut seen = 0;
-    let stream = StreamRequest { detail: Detail::Full, every: 1, ..digests(job.steps) };
-    let trace = Trace::record(client, job, stream, None, |frame| {
-        if let Frame::Bodies { at, total, bodies: share } = frame
-            && let Some(state) = states.push(*at, *total, share)
-        {
-            seen += 1;
-            bodies.update(&state);
-            for check in &mut checks {
-                check.observe(at.step, bodies.as_slice());
-            }
-        }
-    });
+    let mut observer = Observer::new(job);
+    let trace = Trace::record(client, job, observer.stream(), None, |frame| observer.take(frame));
     let trace = trace.map_err(|error| match error.kind() {
         // The scene itself has taken the parameters: what the mock refuses is more than it has room for.
         Kind::Refused => Error::usage(error.what(), "fewer --bodies"),
         _ => error,
     })?;
-    let mut findings = vec![Finding::count("full state of every step", job.steps, seen, "")];
-    findings.extend(checks.iter().map(|check| check.finding()));
-    Ok((trace, findings))
-}
-
-/// Digests, and the engine's counters once at the end.
-fn digests(steps: u32) -> StreamRequest {
-    // The longest interval that ends with the run.
-    let interval = (1..=u16::MAX).rev().find(|&interval| steps.is_multiple_of(interval.into()));
-    StreamRequest { statistics_every: interval.unwrap_or(0), ..drive::LOSSLESS }
+    Ok((trace, observer.findings()))
 }
 
 fn run_target(
@@ -151,7 +137,7 @@ fn run_target(
     expected: &Trace,
     promises: &[Finding],
 ) -> Result<Verdict, Error> {
-    let trace = match Trace::record(side.client, job, digests(job.steps), side.flip, |_| {}) {
+    let trace = match Trace::record(side.client, job, drive::digests(job.steps), side.flip, |_| {}) {
         Ok(trace) => trace,
         Err(error) if error.kind() == Kind::Refused => return Ok(refused(job, target, rerun, &error)),
         Err(error) => return Err(error),
@@ -167,6 +153,7 @@ fn run_target(
         measured: None,
         limit: None,
         unit: "",
+        used: None,
     };
     if let Some(parting) = trace.parts_from(expected) {
         let mut mock = Side { client: reference, flip: None };
@@ -222,6 +209,7 @@ fn refused(job: &Job, target: &Target, rerun: String, error: &Error) -> Verdict 
         measured: None,
         limit: None,
         unit: "",
+        used: None,
     };
     Verdict::before_any_step(job, target, rerun, vec![finding])
 }

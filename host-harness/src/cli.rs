@@ -5,10 +5,25 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use flat_physics::Stage;
+use flat_rig::variant::{self, VariantArgs};
 use flat_wire::message::{Flip, Level, Order, Point, ScalarKind};
 
-use crate::firmware::image::Board;
+use crate::advise::AdviseArgs;
+use crate::baseline::BaselineArgs;
+use crate::effects::EffectsArgs;
+use crate::firmware::flash::FlashArgs;
+use crate::firmware::image::{Board, Build};
+use crate::firmware::inspect::InspectArgs;
+use crate::job::Job;
+use crate::monitor::MonitorArgs;
+use crate::peers::PeersArgs;
+use crate::profile::ProfileArgs;
+use crate::setting::Setting;
+use crate::target::reset::ResetArgs;
 use crate::target::{Target, TargetList};
+use crate::tradeoff::TradeoffArgs;
+use crate::trials::faults::FaultsArgs;
+use crate::trials::stress::StressArgs;
 use crate::verify::VerifyArgs;
 
 /// Runs flat's scenes on the in-process mock, on QEMU and on boards, and checks what must hold.
@@ -27,11 +42,39 @@ pub enum Command {
     Run(RunArgs),
     /// Does everything that must pass before a change goes in, and installs what that needs
     Verify(VerifyArgs),
+    /// Says where a scene's time goes, stage by stage, and how many bodies hold 60 steps a second
+    Profile(ProfileArgs),
+    /// Holds instruction counts and sizes against those that are committed
+    Baseline(BaselineArgs),
+    /// Says what accuracy costs in time: levels, passes and number formats, error against cost
+    Tradeoff(TradeoffArgs),
+    /// Finds the cheapest setting that meets stated tolerances on a scene
+    Advise(AdviseArgs),
+    /// Says what each effect costs, in instructions and in bytes
+    Effects(EffectsArgs),
+    /// Puts flat's cost of a step beside that of other engines
+    Peers(PeersArgs),
+    /// Lists the serial ports and the boards behind them
+    Ports,
+    /// Puts the firmware on a board through espflash, or says how
+    Flash(FlashArgs),
+    /// Shows what a board logs, its faults and restarts, and how late its steps are
+    Monitor(MonitorArgs),
+    /// Shows what the ESP32-C3's image takes of the chip, and what its code in RAM still wants from flash
+    Inspect(InspectArgs),
+    /// Disturbs a device's link in every way, and checks that physics doesn't notice
+    Stress(StressArgs),
+    /// Makes a test build fail in every way it can, and checks what it says
+    Faults(FaultsArgs),
     /// Builds the firmware for a board and prints the path of the image
     Build {
         /// The board.
         #[arg(value_enum)]
         board: BoardArg,
+
+        /// What for.
+        #[command(flatten)]
+        kind: Build,
     },
 }
 
@@ -43,7 +86,7 @@ pub struct RunArgs {
     #[arg(value_name = "SCENARIO")]
     pub scenarios: Vec<String>,
 
-    /// Where to run: `mock`, `qemu`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `exec:COMMAND`. Several with commas between
+    /// Where to run: `mock`, `qemu`, `esp-qemu` (Espressif's), `serial[:PATH[@BAUD]]`, `tcp:HOST:PORT`, `exec:COMMAND`. Several with commas between
     /// them, or by repeating the option. exec: takes the rest of its value, commas and spaces included. Every
     /// target is compared with the mock, step by step.
     #[arg(long = "target", value_name = "TARGET", default_value = "mock")]
@@ -65,13 +108,21 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t)]
     pub order: OrderArg,
 
-    /// Accuracy level of the solver
-    #[arg(long, value_enum, default_value_t)]
-    pub level: LevelArg,
+    /// Departures from the scenes as they are written.
+    #[command(flatten)]
+    pub variant: VariantArgs,
 
-    /// Number format of the engine
-    #[arg(long, value_enum, default_value_t)]
-    pub scalar: ScalarArg,
+    /// Runs every scenario in all its perturbations: seeds, orders, mirrored, turned, shifted, gravities, mixtures, sizes
+    #[arg(long, conflicts_with_all = ["bodies", "seed", "order", "VariantArgs", "flip"])]
+    pub perturbed: bool,
+
+    /// Prints the figure of every check beside its bar
+    #[arg(long)]
+    pub figures: bool,
+
+    /// How to compute.
+    #[command(flatten)]
+    pub setting: Setting,
 
     /// Steps to run, 60 a second [default: the scene's]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_STEPS))]
@@ -85,9 +136,13 @@ pub struct RunArgs {
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
     timeout: Duration,
 
-    /// QEMU image to run instead of building one
+    /// QEMU image to run instead of building one; for a board, the image that it runs, to read its logs and faults with
     #[arg(long, value_name = "PATH")]
     pub elf: Option<PathBuf>,
+
+    /// Whether to reset a board.
+    #[command(flatten)]
+    pub reset: ResetArgs,
 
     /// Inverts a bit of a body's horizontal velocity on the last target, after a stage (number or name) of a step:
     /// proves that the comparison notices
@@ -96,7 +151,7 @@ pub struct RunArgs {
 }
 
 /// Two days at 60 steps a second; a digest of each is kept.
-const MOST_STEPS: i64 = 10_000_000;
+pub const MOST_STEPS: i64 = 10_000_000;
 
 const EXIT_CODES: &str = "Exit codes: 0 all checks held; 1 a check failed; 2 usage; 3 no target, or a time-out; \
                           4 the target speaks another protocol; 130 interrupted";
@@ -113,19 +168,14 @@ impl RunArgs {
     }
 
     /// The command that runs one scenario on one target again, ready for a shell.
-    pub fn rerun(&self, scene: &str, target: &Target) -> String {
-        let mut words = vec!["cargo".to_owned(), "rig".into(), "run".into(), scene.into()];
+    pub fn rerun(&self, job: &Job, target: &Target) -> String {
+        let mut words = vec!["cargo".to_owned(), "rig".into(), "run".into(), job.scene.name.into()];
         let mut option = |name: &str, value: Option<String>| {
             words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
         };
         option("target", Some(target.to_string()));
-        option("bodies", self.bodies.map(|bodies| bodies.to_string()));
-        option("seed", self.seed.map(|seed| seed.to_string()));
-        option("order", given(&self.order));
-        option("level", given(&self.level));
-        option("scalar", given(&self.scalar));
         option("steps", self.steps.map(|steps| steps.to_string()));
-        if *target == Target::Qemu {
+        if matches!(target, Target::Qemu | Target::EspQemu) {
             option("elf", self.elf.as_ref().map(|elf| elf.display().to_string()));
         }
         let last = self.targets.last().and_then(|list| list.0.last());
@@ -135,16 +185,23 @@ impl RunArgs {
                 self.flip.map(|Flip { point, body, bit }| format!("{}:{}:{body}:{bit}", point.step, point.stage)),
             );
         }
+        words.extend(variant::options(job.scene, &job.parameters));
+        words.extend(self.setting.options());
+        words.extend(self.reset.option().map(str::to_owned));
         shell_words::join(words)
     }
 }
 
 /// A choice by its name, unless it is the default.
-fn given<T: ValueEnum + Default + PartialEq>(choice: &T) -> Option<String> {
+pub fn given<T: ValueEnum + Default + PartialEq>(choice: &T) -> Option<String> {
     (*choice != T::default()).then(|| choice.to_possible_value().map(|value| value.get_name().to_owned())).flatten()
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+/// A duration on the command line.
+///
+/// # Errors
+/// In words.
+pub fn seconds(text: &str) -> Result<Duration, String> {
     match text.parse::<f64>() {
         Ok(seconds) if (0.001..=86_400.0).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
         _ => Err("must be a number of seconds, 0.001 to 86400".into()),
@@ -224,14 +281,20 @@ impl From<OrderArg> for Order {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LevelArg {
     /// Plain impulses, the cheapest.
-    #[default]
     Flat,
+    /// Accumulated impulses and a pass from the ground up.
+    #[default]
+    Grounded,
+    /// More passes, and the time of impact for every body.
+    Exact,
 }
 
 impl From<LevelArg> for flat_physics::Level {
     fn from(level: LevelArg) -> Self {
         match level {
             LevelArg::Flat => Self::Flat,
+            LevelArg::Grounded => Self::Grounded,
+            LevelArg::Exact => Self::Exact,
         }
     }
 }
@@ -240,6 +303,8 @@ impl From<LevelArg> for Level {
     fn from(level: LevelArg) -> Self {
         match level {
             LevelArg::Flat => Self::Flat,
+            LevelArg::Grounded => Self::Grounded,
+            LevelArg::Exact => Self::Exact,
         }
     }
 }
@@ -263,5 +328,17 @@ impl From<ScalarArg> for ScalarKind {
             ScalarArg::F32 => Self::F32,
             ScalarArg::F64 => Self::F64,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn every_command_and_option_has_a_name_of_its_own() {
+        Cli::command().debug_assert();
     }
 }

@@ -14,9 +14,19 @@ pub const LOSSLESS: StreamRequest = StreamRequest {
     contacts: false,
     stage_digests: false,
     stage_times: false,
+    timing: false,
+    events: false,
+    measures_every: 0,
     statistics_every: 0,
     flow: Flow::Hold,
 };
+
+/// Digests, and the engine's counters once at the end of so many steps.
+pub fn digests(steps: u32) -> StreamRequest {
+    // The longest interval that ends with the run.
+    let interval = (1..=u16::MAX).rev().find(|&interval| steps.is_multiple_of(interval.into()));
+    StreamRequest { statistics_every: interval.unwrap_or(0), ..LOSSLESS }
+}
 
 /// Builds a scene on the target and says what to stream; `flip` is a fault to inject on the way.
 ///

@@ -2,13 +2,15 @@
 
 use std::fmt::Display;
 
-use flat_physics::Level;
+use flat_physics::Effects;
+use flat_rig::variant::{self, VariantArgs};
 use flat_scenes::{Parameters, Scene};
-use flat_wire::message::{ScalarKind, SceneRequest};
+use flat_wire::message::{Order, ScalarKind, SceneRequest};
 
-use crate::cli::RunArgs;
+use crate::cli::{OrderArg, RunArgs};
 use crate::error::Error;
 use crate::report;
+use crate::setting::Setting;
 
 /// What to run.
 #[derive(Debug)]
@@ -19,43 +21,89 @@ pub struct Job {
     pub parameters: Parameters,
     /// The same for a device, and how to compute.
     pub request: SceneRequest,
-    /// The level that promises are made for.
-    pub level: Level,
     /// Steps to run.
     pub steps: u32,
 }
 
+/// What a scene may be varied by; none = the scene's.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Choice {
+    /// Bodies.
+    pub bodies: Option<u16>,
+    /// Seed of the scene's random numbers.
+    pub seed: Option<u32>,
+    /// Order of insertion.
+    pub order: OrderArg,
+    /// Steps to run.
+    pub steps: Option<u32>,
+    /// Departures from the scene as it is written.
+    pub variant: VariantArgs,
+}
+
 impl Job {
-    /// The job that the command line asks for.
+    /// The jobs that the command line asks for: one, or one for each perturbation.
     ///
     /// # Errors
     /// If the scene doesn't take the parameters.
-    pub fn new(scene: &'static Scene, arguments: &RunArgs) -> Result<Self, Error> {
-        let wrong = |error: &dyn Display| Error::usage(format!("{}: {error}", scene.name), "cargo rig run --list");
-        let order = arguments.order;
-        let parameters = scene
-            .parameters(arguments.bodies, arguments.seed, order.into())
-            .map_err(|error| Error::usage(error.to_string(), "cargo rig run --list"))?;
-        let steps = arguments.steps.unwrap_or(scene.steps);
-        let scalar = arguments.scalar.into();
+    pub fn all(scene: &'static Scene, arguments: &RunArgs) -> Result<Vec<Self>, Error> {
+        if !arguments.perturbed {
+            return Ok(vec![Self::new(scene, arguments)?]);
+        }
+        let steps = arguments.steps.unwrap_or(scene.battery_steps());
+        scene.battery().into_iter().map(|parameters| Self::with(scene, parameters, steps, &arguments.setting)).collect()
+    }
+
+    fn new(scene: &'static Scene, arguments: &RunArgs) -> Result<Self, Error> {
+        let RunArgs { bodies, seed, order, steps, variant, .. } = *arguments;
+        let job = Self::of(scene, Choice { bodies, seed, order, steps, variant }, &arguments.setting)?;
         if let Some(flip) = arguments.flip {
-            let bits = if scalar == ScalarKind::F64 { 64 } else { 32 };
+            let bits = if job.request.scalar == ScalarKind::F64 { 64 } else { 32 };
+            let steps = job.steps;
             if flip.point.step > steps {
-                return Err(wrong(&format!("--flip at step {} is past the last step, {steps}", flip.point.step)));
+                return Err(wrong(
+                    scene,
+                    &format!("--flip at step {} is past the last step, {steps}", flip.point.step),
+                ));
             }
             if flip.bit >= bits {
-                return Err(wrong(&format!("--flip of bit {}: a velocity has {bits} bits, from 0 on", flip.bit)));
+                return Err(wrong(
+                    scene,
+                    &format!("--flip of bit {}: a velocity has {bits} bits, from 0 on", flip.bit),
+                ));
             }
         }
+        Ok(job)
+    }
+
+    /// A scene with some choices made, computed in some way.
+    ///
+    /// # Errors
+    /// If the scene doesn't take the parameters.
+    pub fn of(scene: &'static Scene, choice: Choice, setting: &Setting) -> Result<Self, Error> {
+        let parameters = scene
+            .parameters(choice.bodies, choice.seed, choice.order.into())
+            .and_then(|parameters| scene.vary(parameters, choice.variant.into()))
+            .map_err(|error| Error::usage(error.to_string(), "cargo rig run --list"))?;
+        Self::with(scene, parameters, choice.steps.unwrap_or(scene.steps), setting)
+    }
+
+    fn with(scene: &'static Scene, parameters: Parameters, steps: u32, setting: &Setting) -> Result<Self, Error> {
         let request = SceneRequest {
-            name: scene.name.try_into().map_err(|_| wrong(&"the name is too long for the protocol"))?,
+            name: scene.name.try_into().map_err(|_| wrong(scene, &"the name is too long for the protocol"))?,
             bodies: Some(parameters.bodies),
             seed: Some(parameters.seed),
-            order: order.into(),
-            level: arguments.level.into(),
-            scalar,
+            order: match parameters.order {
+                flat_scenes::Order::Forward => Order::Forward,
+                flat_scenes::Order::Reverse => Order::Reverse,
+                flat_scenes::Order::Shuffled => Order::Shuffled,
+            },
+            level: setting.level.into(),
+            scalar: setting.scalar.into(),
+            iterations: setting.iterations,
+            effects: setting.effects.map(Effects::bits),
+            variant: variant::requested(&parameters.variant),
         };
-        Ok(Self { scene, parameters, request, level: arguments.level.into(), steps })
+        Ok(Self { scene, parameters, request, steps })
     }
 
     /// The parameters for the report.
@@ -66,6 +114,11 @@ impl Job {
             order: self.request.order,
             level: self.request.level,
             scalar: self.request.scalar,
+            options: variant::options(self.scene, &self.parameters).join(" "),
         }
     }
+}
+
+fn wrong(scene: &Scene, error: &dyn Display) -> Error {
+    Error::usage(format!("{}: {error}", scene.name), "cargo rig run --list")
 }

@@ -102,10 +102,9 @@ fn silence_ends_in_a_time_out_that_says_what_was_awaited() {
 }
 
 #[test]
-fn garbage_alone_ends_in_a_time_out_that_counts_it() {
-    for fault in [Fault::Garbage, Fault::Flood] {
-        rig(fault, &["--timeout", "0.4"]).says(3, &["damaged frames and no intact one arrived"]);
-    }
+fn garbage_alone_ends_in_a_time_out_that_shows_or_counts_it() {
+    rig(Fault::Garbage, &["--timeout", "0.4"]).says(3, &["no frame among them", "| Guru Meditation Error"]);
+    rig(Fault::Flood, &["--timeout", "0.4"]).says(3, &["damaged frames and no intact one arrived"]);
 }
 
 #[test]
@@ -120,8 +119,59 @@ fn a_device_that_dies_is_a_lost_target() {
 
 #[test]
 fn another_protocol_is_named_with_both_versions() {
-    rig(Fault::NextProtocol, &[]).says(4, &["speaks protocol version 2; this rig speaks version 1", "try: build"]);
+    rig(Fault::NextProtocol, &[]).says(
+        4,
+        &["speaks protocol version 2; this rig speaks version 1", "the rig is the older one", "cargo rig flash test"],
+    );
     rig(Fault::ForeignTable, &["--timeout", "0.4"]).says(4, &["this rig speaks version 1"]);
+}
+
+#[test]
+fn a_board_that_resets_when_its_port_is_opened_is_waited_for() {
+    rig(Fault::Boot, &[]).says(0, &["ok    drop"]);
+}
+
+#[test]
+fn what_a_board_says_instead_of_hello_is_shown() {
+    rig(Fault::Unprogrammed, &["--timeout", "0.4"])
+        .says(3, &["no frame among them", "| invalid header: 0xffffffff", "cargo rig flash"]);
+}
+
+#[test]
+fn a_panic_ends_the_run_with_its_place_and_its_calls() {
+    rig(Fault::Panic(30), &[]).says(
+        3,
+        &[
+            "failed 1.500000 s after its start: panic at firmware/src/tasks/simulate.rs:42",
+            "index 7 is out of bounds",
+            "0x40381234",
+            "0x42015678",
+            "without names: ",
+            "it restarts by itself",
+        ],
+    );
+}
+
+#[test]
+fn a_restart_ends_the_run_with_its_cause() {
+    rig(Fault::Brownout(30), &[]).says(3, &["has restarted because its supply voltage had dropped"]);
+}
+
+#[test]
+fn a_fault_of_the_devices_former_life_is_told_and_the_run_goes_on() {
+    rig(Fault::FormerLife, &[])
+        .says(0, &["panic at firmware/src/tasks/simulate.rs:42", "restarted after a fault", "ok"]);
+}
+
+#[test]
+fn logs_without_their_image_are_mentioned_once_and_those_that_were_lost_counted() {
+    rig(Fault::Logs(30), &[]).says(0, &["its logs cannot be read", "--elf", "3 log messages were lost", "ok    drop"]);
+    let image = std::env::temp_dir().join(format!("rig-wrong-image-{}", std::process::id()));
+    std::fs::write(&image, "of other sources").expect("a file");
+    let elf = image.to_str().expect("a UTF-8 path");
+    rig(Fault::Logs(30), &["--elf", elf])
+        .says(0, &["is not the image of build of the test that it runs", "ok    drop"]);
+    std::fs::remove_file(&image).expect("the file is ours");
 }
 
 #[test]

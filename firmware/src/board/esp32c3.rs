@@ -1,54 +1,95 @@
-//! ESP32-C3: rv32imc at 160 MHz, no floating-point unit. Frames on UART0, GPIO20 in and GPIO21 out.
+//! ESP32-C3: rv32imc at 160 MHz, no floating-point unit. Frames on UART0, GPIO20 in and GPIO21 out, or on the chip's own USB.
 
 use core::arch::asm;
 
-use embassy_executor::Spawner;
 use esp_hal::clock::CpuClock;
 use esp_hal::timer::systimer::SystemTimer;
 use flat_session::Identity;
 use flat_wire::message::Counter;
 
-use super::{Capacity, esp};
+use super::Capacity;
+use super::esp::{self, link, machine};
+use crate::stack;
 
-// What 313 KiB of RAM hold beside the code that runs from it and a stack of 16 KiB, of which 4 were ever used.
+// What 313 KiB of RAM hold beside the code that runs from it and a stack of 16 KiB, of which 5 were ever used.
 pub(crate) const OUTBOX_BYTES: usize = 12 * 1024;
 pub(crate) const FIXED: Capacity = Capacity { bodies: 1024, contacts: 3072 };
 pub(crate) const F32: Capacity = Capacity { bodies: 128, contacts: 768 };
 pub(crate) const F64: Capacity = Capacity { bodies: 8, contacts: 24 };
 
-#[esp_rtos::main]
-async fn main(link: Spawner) {
+#[esp_hal::main]
+fn main() -> ! {
+    stack::paint();
     let clock = CpuClock::max();
     let chip = esp_hal::init(esp_hal::Config::default().with_cpu_clock(clock));
     // The alarm is also embassy's time driver, in microseconds.
     esp_rtos::start(SystemTimer::new(chip.SYSTIMER).alarm0, chip.FROM_CPU_INTR0);
-    let (receiver, transmitter) = esp::open(chip.UART0, chip.GPIO20, chip.GPIO21);
+    machine::start_watchdog(chip.TIMG1, chip.RTC_TIMER);
+    let (receiver, transmitter) = cfg_select! {
+        feature = "usb" => link::open(chip.USB_DEVICE),
+        _ => link::open(chip.UART0, chip.GPIO20, chip.GPIO21),
+    };
     let identity = Identity {
         board: "esp32c3",
         build: crate::BUILD,
         clock_hz: clock as u32 * 1_000_000,
         counter: Counter::Cycles,
     };
-    let parts = crate::Parts { identity, stopwatch: Stopwatch::start(), receiver, transmitter };
-    crate::start(parts, esp::physics_executor(chip.FROM_CPU_INTR1), link);
+    let physics = esp::start_physics(chip.FROM_CPU_INTR1);
+    let parts = crate::Parts { identity, counter: StageCounter::start(), receiver, transmitter };
+    esp::run_link(|link| crate::start(parts, physics, link))
 }
 
 /// Times stages in CPU cycles, by the chip's performance counter; wraps after 26.8 s.
-pub(crate) struct Stopwatch(());
+pub(crate) struct StageCounter(());
 
-impl Stopwatch {
+impl StageCounter {
     fn start() -> Self {
         // SAFETY: mpcer = 1 selects cycles and mpcmr = 1 enables the counter; nothing else uses it.
         unsafe { asm!("csrwi 0x7e0, 1", "csrwi 0x7e1, 1", options(nomem, nostack)) };
         Self(())
     }
-}
 
-impl flat_session::Stopwatch for Stopwatch {
-    fn count(&mut self) -> u32 {
+    /// The count now; wraps.
+    #[allow(clippy::unused_self, reason = "the same on every board")]
+    pub(crate) fn count(&self) -> u32 {
         let cycles;
         // SAFETY: reads mpccr and does nothing.
         unsafe { asm!("csrr {}, 0x7e2", out(reg) cycles, options(nomem, nostack)) };
         cycles
     }
+}
+
+unsafe extern "C" {
+    /// See `memory/esp.x`.
+    static _flash_code_start: u32;
+    static _flash_code_end: u32;
+    static _trap_section_origin: u32;
+    static _rwtext_end: u32;
+    static _stack_end_cpu0: u32;
+}
+
+/// Bytes below the stack's guard, for what reports that the stack is full.
+pub(crate) fn reserve() -> usize {
+    machine::stack().start - (&raw const _stack_end_cpu0).addr()
+}
+
+/// Watches the stack's guard in this interrupt handler too: entering one switches that off.
+pub(crate) fn watch_guard() {
+    // SAFETY: sets tcontrol.mte, which lets esp-hal's watchpoint on the guard raise an exception in machine mode.
+    unsafe { asm!("csrsi 0x7a5, 1 << 3", options(nomem, nostack)) };
+}
+
+/// Whether there is code at an address, in flash or in RAM.
+pub(crate) fn is_code(address: usize) -> bool {
+    let flash = (&raw const _flash_code_start).addr()..(&raw const _flash_code_end).addr();
+    let ram = (&raw const _trap_section_origin).addr()..(&raw const _rwtext_end).addr();
+    flash.contains(&address) || ram.contains(&address)
+}
+
+/// Runs into an instruction that no processor has.
+#[cfg(feature = "provoke")]
+pub(crate) fn illegal_instruction() -> ! {
+    // SAFETY: ends in the exception handler, which doesn't return.
+    unsafe { asm!("unimp", options(noreturn)) }
 }

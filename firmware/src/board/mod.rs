@@ -1,12 +1,14 @@
 //! The boards. Each starts itself, calls [`crate::start`], and says here:
 //!
-//! | Name            | Is                                                              |
-//! |-----------------|-----------------------------------------------------------------|
-//! | `Receiver`      | serial in, `embedded_io_async::Read`                            |
-//! | `Transmitter`   | serial out, `embedded_io_async::Write`                          |
-//! | `Stopwatch`     | `flat_session::Stopwatch`                                       |
-//! | `OUTBOX_BYTES`  | bytes of frames that may wait for the link                      |
+//! | Name              | Is                                                            |
+//! |-------------------|---------------------------------------------------------------|
+//! | `Receiver`        | serial in, `embedded_io_async::Read`                          |
+//! | `Transmitter`     | serial out, `embedded_io_async::Write`                        |
+//! | `StageCounter`    | cycles or instructions                                        |
+//! | `OUTBOX_BYTES`    | bytes of frames that may wait for the link                    |
 //! | `FIXED` and so on | room for bodies and contacts in each number format            |
+//! | `machine`         | the stack, the code, restart, sending without interrupts      |
+//! | `backtrace`       | the calls that led to here                                    |
 //!
 //! Time comes from the board's embassy time driver, in microseconds.
 
@@ -18,15 +20,19 @@ mod esp32;
 mod esp32c3;
 #[cfg(feature = "qemu_virt")]
 mod qemu_virt;
+#[cfg(target_arch = "riscv32")]
+mod riscv;
 
 #[cfg(feature = "_esp")]
-pub(crate) use esp::{Receiver, Transmitter};
+pub(crate) use esp::{Receiver, Transmitter, machine};
 #[cfg(feature = "esp32")]
-pub(crate) use esp32::{F32, F64, FIXED, OUTBOX_BYTES, Stopwatch};
+pub(crate) use esp32::{F32, F64, FIXED, OUTBOX_BYTES, StageCounter, backtrace, trail_of_interrupted};
 #[cfg(feature = "esp32c3")]
-pub(crate) use esp32c3::{F32, F64, FIXED, OUTBOX_BYTES, Stopwatch};
+pub(crate) use esp32c3::{F32, F64, FIXED, OUTBOX_BYTES, StageCounter};
 #[cfg(feature = "qemu_virt")]
-pub(crate) use qemu_virt::{F32, F64, FIXED, OUTBOX_BYTES, Receiver, Stopwatch, Transmitter};
+pub(crate) use qemu_virt::{F32, F64, FIXED, OUTBOX_BYTES, Receiver, StageCounter, Transmitter, machine};
+#[cfg(target_arch = "riscv32")]
+pub(crate) use riscv::{backtrace, trail_of_interrupted};
 
 /// Room for one number format.
 pub(crate) struct Capacity {

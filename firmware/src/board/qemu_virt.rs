@@ -6,17 +6,17 @@
 //! ```
 
 mod clock;
-mod failure;
+mod executor;
+pub(crate) mod machine;
 mod register;
-mod stopwatch;
+mod stage_counter;
 mod uart;
 
-use embassy_executor::Executor;
 use flat_session::Identity;
-use static_cell::StaticCell;
 
 use super::Capacity;
-pub(crate) use stopwatch::Stopwatch;
+use crate::stack;
+pub(crate) use stage_counter::StageCounter;
 pub(crate) use uart::{Receiver, Transmitter};
 
 pub(crate) const OUTBOX_BYTES: usize = 64 * 1024;
@@ -26,23 +26,21 @@ pub(crate) const F64: Capacity = FIXED;
 
 #[riscv_rt::entry]
 fn main() -> ! {
-    static EXECUTOR: StaticCell<Executor> = StaticCell::new();
-
-    let stopwatch = Stopwatch::calibrate();
+    stack::paint();
+    machine::guard_stack();
+    let counter = StageCounter::calibrate();
     let (receiver, transmitter) = uart::open();
+    let physics = executor::start_physics();
     // SAFETY: all handlers are in place and no critical section is open.
     unsafe { riscv::interrupt::enable() };
-
-    EXECUTOR.init(Executor::new()).run(|spawner| {
+    executor::run_link(|link| {
         let identity = Identity {
             board: "qemu_virt",
             build: crate::BUILD,
             // Whatever `-icount` says.
             clock_hz: 0,
-            counter: stopwatch.counter(),
+            counter: counter.counter(),
         };
-        let parts = crate::Parts { identity, stopwatch, receiver, transmitter };
-        // One executor: a step ends before the link goes on, and the link's turns are a few us each.
-        crate::start(parts, spawner.make_send(), spawner);
+        crate::start(crate::Parts { identity, counter, receiver, transmitter }, physics, link);
     })
 }

@@ -3,7 +3,7 @@
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
 use flat_session::LinkCounters;
-use flat_wire::message::Command;
+use flat_wire::message::{Command, Stack};
 
 /// Commands that wait while a step runs. A full channel makes the receiver wait, and with it, where the port knows how,
 /// the host.
@@ -16,6 +16,8 @@ pub(super) struct Arrival {
     pub(super) command: Option<Command>,
     /// The receiver's counters, this frame included.
     pub(super) link: LinkCounters,
+    /// For a command that asks: how deep the stack was.
+    pub(super) stack: Option<Stack>,
 }
 
 /// From `receive` to `simulate`.

@@ -2,10 +2,12 @@
 
 use embedded_io_async::Read;
 use flat_session::LinkCounters;
+use flat_wire::message::Command;
 use flat_wire::{Decoder, FrameError};
 
 use super::arrivals::{ARRIVALS, Arrival};
 use crate::board::Receiver;
+use crate::stack;
 
 /// Bytes taken from the port at once.
 const CHUNK: usize = 64;
@@ -26,7 +28,13 @@ pub(crate) async fn receive(mut serial: Receiver) -> ! {
             };
             let counters = decoder.counters();
             let link = LinkCounters { received: counters.received, damaged: counters.damaged };
-            ARRIVALS.send(Arrival { sequence, command, link }).await;
+            // Here, since it takes its time, and physics may interrupt it.
+            let stack = matches!(command, Some(Command::Status)).then(stack::measure);
+            #[cfg(feature = "provoke")]
+            if let Some(Command::Provoke(mishap)) = command {
+                crate::provoke::on_link(mishap);
+            }
+            ARRIVALS.send(Arrival { sequence, command, link, stack }).await;
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use fixed::types::I16F16;
 
-use super::{Body, Check, Finding, Outcome};
+use super::{Check, Finding, Outcome, State};
 
 /// The check.
-pub struct Apex {
+#[derive(Debug)]
+pub(super) struct Apex {
     slot: Option<usize>,
     number: u16,
     bounce: u16,
@@ -22,7 +23,7 @@ pub struct Apex {
 impl Apex {
     /// The body by slot and by its number in the scene, the bounce counted from 1, the y of the centre at the highest
     /// point after it, and by how much that may differ, px.
-    pub fn new(slot: Option<usize>, number: u16, bounce: u16, y: I16F16, tolerance: I16F16) -> Self {
+    pub(super) fn new(slot: Option<usize>, number: u16, bounce: u16, y: I16F16, tolerance: I16F16) -> Self {
         Self {
             slot,
             number,
@@ -38,7 +39,7 @@ impl Apex {
 }
 
 impl Check for Apex {
-    fn observe(&mut self, step: u32, bodies: &[Body]) {
+    fn observe(&mut self, &State { step, bodies, .. }: &State<'_>) {
         let Some(body) = self.slot.and_then(|slot| bodies.get(slot)) else { return };
         let falls = body.velocity[1] > 0.0;
         let rises = body.velocity[1] < 0.0;
@@ -76,6 +77,7 @@ impl Check for Apex {
             measured,
             limit: Some(self.y),
             unit: "px",
+            used: measured.map(|y| (y - self.y).abs() / self.tolerance),
         }
     }
 }
@@ -83,14 +85,14 @@ impl Check for Apex {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::body::Extent;
+    use crate::check::body::{Body, Extent};
 
     /// Height and velocity (both y down) at each step.
     fn outcome(path: &[(f64, f64)]) -> Outcome {
         let mut apex = Apex::new(Some(0), 0, 1, I16F16::from_num(-50), I16F16::from_num(1));
         for (step, &(y, velocity)) in (1..).zip(path) {
             let body = Body { velocity: [0.0, velocity], ..Body::at([0.0, y], Extent::Circle { radius: 1.0 }) };
-            apex.observe(step, &[body]);
+            apex.observe(&State { step, bodies: &[body], contacts: &[] });
         }
         apex.finding().outcome
     }

@@ -1,20 +1,20 @@
-//! Bodies as the checks see them: px, px/s, `f64`.
+//! Bodies as the checks see them: px, px/s, `f64`, in the scene's own coordinates.
 
 use std::collections::HashMap;
 
 use fixed::types::I16F16;
-use flat_physics::{Fixed, Kind, Shape};
-use flat_scenes::{Parameters, Scene};
+use flat_physics::{Fixed, Kind, Shape, Vec2, vec2};
+use flat_scenes::{Parameters, Scene, Variant};
 use flat_wire::message::{BodyState, ScalarKind};
 
 use crate::number::{Quantity, decode};
 
 /// Steps per second: velocities are streamed per step.
-const STEP_HZ: f64 = flat_physics::scalar::STEP_HZ as f64;
+pub(super) const STEP_HZ: f64 = flat_physics::scalar::STEP_HZ as f64;
 
 /// A shape's size, px.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Extent {
+pub(super) enum Extent {
     /// A disc.
     Circle {
         /// Its radius.
@@ -29,28 +29,55 @@ pub enum Extent {
 
 /// One body.
 #[derive(Clone, Copy, Debug)]
-pub struct Body {
+pub(super) struct Body {
+    /// Its number in the scene.
+    pub(super) number: u16,
     /// Its size.
-    pub extent: Extent,
+    pub(super) extent: Extent,
+    /// Whether it blocks whoever touches it: no sensor, and not only from one side.
+    pub(super) solid: bool,
     /// Whether anything can move it.
-    pub moves: bool,
+    pub(super) moves: bool,
+    /// Its mass.
+    pub(super) mass: f64,
+    /// Multiple of the scene's gravity that pulls it.
+    pub(super) gravity_scale: f64,
     /// Whether the latest state has it.
-    pub present: bool,
+    pub(super) present: bool,
     /// Centre, px.
-    pub position: [f64; 2],
+    pub(super) position: [f64; 2],
     /// Velocity, px/s.
-    pub velocity: [f64; 2],
+    pub(super) velocity: [f64; 2],
+    /// Centre at the start, px.
+    pub(super) start: [f64; 2],
+    /// Velocity at the start, px/s.
+    pub(super) start_velocity: [f64; 2],
+    /// The latest state, bit by bit; none before the first.
+    pub(super) state: Option<BodyState>,
 }
 
 impl Body {
-    /// A body at rest that can move.
+    /// A body of mass 1 at rest that can move.
     #[cfg(test)]
-    pub fn at(position: [f64; 2], extent: Extent) -> Self {
-        Self { extent, moves: true, present: true, position, velocity: [0.0; 2] }
+    pub(super) fn at(position: [f64; 2], extent: Extent) -> Self {
+        Self {
+            number: 0,
+            extent,
+            solid: true,
+            moves: true,
+            mass: 1.0,
+            gravity_scale: 1.0,
+            present: true,
+            position,
+            velocity: [0.0; 2],
+            start: position,
+            start_velocity: [0.0; 2],
+            state: None,
+        }
     }
 
     /// Half width and half height of its bounding box.
-    pub fn half_extent(&self) -> [f64; 2] {
+    pub(super) fn half_extent(&self) -> [f64; 2] {
         match self.extent {
             Extent::Circle { radius } => [radius; 2],
             Extent::Box { half } => half,
@@ -60,8 +87,9 @@ impl Body {
 
 /// A scene's bodies by slot.
 #[derive(Clone, Debug)]
-pub struct Bodies {
+pub(super) struct Bodies {
     scalar: ScalarKind,
+    variant: Variant,
     by_slot: Vec<Body>,
     /// Slot by number in the scene.
     slots: HashMap<u16, usize>,
@@ -69,50 +97,69 @@ pub struct Bodies {
 
 impl Bodies {
     /// The bodies as the scene defines them: slots are given out in the order of insertion.
-    pub fn of(scene: &Scene, parameters: &Parameters, scalar: ScalarKind) -> Self {
+    pub(super) fn of(scene: &Scene, parameters: &Parameters, scalar: ScalarKind) -> Self {
+        let variant = parameters.variant;
         let by_slot = scene
             .spawn_order(parameters)
-            .map(|index| {
-                let def = scene.body(parameters, index);
-                let px = |a: I16F16, b: I16F16| [f64::from(a), f64::from(b)];
+            .map(|number| {
+                let def = scene.body(parameters, number);
+                let px = |v: Vec2<I16F16>| v.map(f64::from);
                 let extent = match def.shape {
                     Shape::<Fixed>::Circle { radius } => Extent::Circle { radius: radius.into() },
-                    Shape::Box { half } => Extent::Box { half: px(half.x, half.y) },
+                    Shape::Box { half } => Extent::Box { half: pair(variant.turn_back(px(half)).map(f64::abs)) },
                 };
+                let start = pair(variant.turn_back(px(def.position) - px(variant.origin())));
+                let start_velocity = pair(variant.turn_back(px(def.velocity)));
                 Body {
+                    number,
                     extent,
+                    solid: !def.sensor && !def.one_way,
                     moves: def.kind == Kind::Rigid,
+                    mass: def.mass.into(),
+                    gravity_scale: def.gravity_scale.into(),
                     present: true,
-                    position: px(def.position.x, def.position.y),
-                    velocity: px(def.velocity.x, def.velocity.y),
+                    position: start,
+                    velocity: start_velocity,
+                    start,
+                    start_velocity,
+                    state: None,
                 }
             })
             .collect();
         let slots = scene.spawn_order(parameters).zip(0..).collect();
-        Self { scalar, by_slot, slots }
+        Self { scalar, variant, by_slot, slots }
     }
 
     /// The slot of a body by its number in the scene; none if the scene has no such body.
-    pub fn slot_of(&self, number: u16) -> Option<usize> {
+    pub(super) fn slot_of(&self, number: u16) -> Option<usize> {
         self.slots.get(&number).copied()
     }
 
     /// Takes over a whole state; a body that it lacks is no longer present.
-    pub fn update(&mut self, states: &[BodyState]) {
+    pub(super) fn update(&mut self, states: &[BodyState]) {
         for body in &mut self.by_slot {
             body.present = false;
         }
+        let (scalar, variant) = (self.scalar, self.variant);
+        let number = |quantity, [x, y]: [i64; 2]| vec2(decode(scalar, quantity, x), decode(scalar, quantity, y));
         for state in states {
             if let Some(body) = self.by_slot.get_mut(usize::from(state.slot)) {
+                let position = number(Quantity::Length, state.position) - variant.origin().map(f64::from);
+                let velocity = number(Quantity::Speed, state.velocity).map(|speed| speed * STEP_HZ);
                 body.present = true;
-                body.position = state.position.map(|bits| decode(self.scalar, Quantity::Length, bits));
-                body.velocity = state.velocity.map(|bits| decode(self.scalar, Quantity::Speed, bits) * STEP_HZ);
+                body.position = pair(variant.turn_back(position));
+                body.velocity = pair(variant.turn_back(velocity));
+                body.state = Some(*state);
             }
         }
     }
 
     /// All bodies, by slot.
-    pub fn as_slice(&self) -> &[Body] {
+    pub(super) fn as_slice(&self) -> &[Body] {
         &self.by_slot
     }
+}
+
+fn pair(Vec2 { x, y }: Vec2<f64>) -> [f64; 2] {
+    [x, y]
 }

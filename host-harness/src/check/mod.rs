@@ -2,110 +2,156 @@
 
 mod apex;
 mod body;
+mod centre_of_mass;
+mod down;
+mod energy;
+mod finding;
+mod load;
+mod momentum;
+mod opposite;
+mod parabola;
 mod penetration;
 mod rest;
+mod series;
+mod sides;
+mod slip;
+mod steady;
+mod still;
+mod stop_distance;
+mod terminal;
+mod travel;
 mod within;
+mod words;
 mod worst;
 
-use std::fmt;
+use std::fmt::Debug;
 
-use flat_scenes::Promise;
-use serde::Serialize;
+use flat_scenes::{Parameters, Promise, Scene, Shortfall};
+use flat_wire::message::{BodyState, ContactState, ScalarKind};
 
-pub use body::{Bodies, Body};
+use crate::number::{Quantity, decode};
+use body::{Bodies, Body, STEP_HZ};
+pub use finding::{Finding, Outcome};
+pub use series::Series;
+pub use words::Words;
 
 /// Watches one promise over a run.
-pub trait Check {
+trait Check: Debug {
     /// Looks at the state after a step.
-    fn observe(&mut self, step: u32, bodies: &[Body]);
+    fn observe(&mut self, state: &State<'_>);
     /// What came of it.
     fn finding(&self) -> Finding;
 }
 
-/// How a check came out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outcome {
-    /// What was expected.
-    Held,
-    /// Not what was expected.
-    Failed,
-    /// The run ended before the check could say anything.
-    Untested,
+/// The state after a step.
+#[derive(Debug)]
+struct State<'a> {
+    /// Counted from 1.
+    step: u32,
+    /// By slot.
+    bodies: &'a [Body],
+    /// As the solver left them; empty unless a check wants them.
+    contacts: &'a [Contact],
 }
 
-/// A check's result.
-#[derive(Clone, Debug, Serialize)]
-pub struct Finding {
-    /// What was checked.
-    pub check: String,
-    /// How it came out.
-    pub outcome: Outcome,
-    /// The step that decided it: of the first failure, otherwise of the worst value.
-    pub step: Option<u32>,
-    /// What was expected.
-    pub expected: String,
-    /// What was found.
-    pub got: String,
-    /// By how much the two may differ.
-    pub tolerance: String,
-    /// The worst value of the run, in `unit`.
-    pub measured: Option<f64>,
-    /// The value that it is held against, in `unit`.
-    pub limit: Option<f64>,
-    /// Unit of both.
-    pub unit: &'static str,
+/// A contact of a step.
+#[derive(Debug)]
+struct Contact {
+    /// Slots.
+    bodies: [usize; 2],
+    /// Change of the two bodies' relative velocity along the normal, px/s.
+    impulse: f64,
 }
 
-impl Finding {
-    /// Whether as many things arrived as should; `why` says what became of the others.
-    pub fn count(check: &str, expected: u32, got: u32, why: &str) -> Self {
-        Self {
-            check: check.into(),
-            outcome: if expected == got { Outcome::Held } else { Outcome::Failed },
-            step: None,
-            expected: expected.to_string(),
-            got: format!("{got}{why}"),
-            tolerance: "0".into(),
-            measured: Some(got.into()),
-            limit: Some(expected.into()),
-            unit: "",
+/// The checks of a scene's promises.
+#[derive(Debug)]
+pub struct Checks {
+    bodies: Bodies,
+    scalar: ScalarKind,
+    watches: Vec<Box<dyn Check>>,
+    shortfalls: &'static [Shortfall],
+    /// Whether a check looks at contacts.
+    pub want_contacts: bool,
+    /// px/s2 downwards.
+    gravity: f64,
+    series: Option<Series>,
+}
+
+impl Checks {
+    /// One check for every promise.
+    pub fn new(scene: &Scene, parameters: &Parameters, scalar: ScalarKind) -> Self {
+        let bodies = Bodies::of(scene, parameters, scalar);
+        let gravity = parameters.variant.turn_back(scene.gravity(parameters)).y.into();
+        let promises = scene.promises(parameters);
+        let watches = promises.iter().map(|promise| check(promise, &bodies, scalar, gravity)).collect();
+        let want_contacts = promises.iter().any(|promise| matches!(promise, Promise::Load { .. } | Promise::Momentum));
+        Self { bodies, scalar, watches, shortfalls: scene.shortfalls, want_contacts, gravity, series: None }
+    }
+
+    /// Also keeps a series of every step from now on.
+    pub fn record(&mut self) {
+        self.series = Some(Series::default());
+    }
+
+    /// What was recorded; empty if nothing was to be.
+    pub fn series(&self) -> Series {
+        self.series.clone().unwrap_or_default()
+    }
+
+    /// Takes the whole state after a step.
+    pub fn observe(&mut self, step: u32, bodies: &[BodyState], contacts: &[ContactState]) {
+        self.bodies.update(bodies);
+        let contacts: Vec<_> = contacts
+            .iter()
+            .map(|contact| Contact {
+                bodies: contact.bodies.map(usize::from),
+                impulse: decode(self.scalar, Quantity::Speed, contact.impulse[0]) * STEP_HZ,
+            })
+            .collect();
+        let state = State { step, bodies: self.bodies.as_slice(), contacts: &contacts };
+        for check in &mut self.watches {
+            check.observe(&state);
         }
+        if let Some(series) = &mut self.series {
+            series.add(self.bodies.as_slice(), self.gravity);
+        }
+    }
+
+    /// What came of each, in the order of the promises.
+    pub fn findings(&self) -> Vec<Finding> {
+        self.watches.iter().map(|check| check.finding().known(self.shortfalls)).collect()
     }
 }
 
-/// One check for every promise.
-pub fn checks(promises: &[Promise], bodies: &Bodies) -> Vec<Box<dyn Check>> {
-    promises
-        .iter()
-        .map(|promise| -> Box<dyn Check> {
-            match *promise {
-                Promise::Within { min, max, tolerance } => Box::new(within::Within::new(min, max, tolerance)),
-                Promise::Penetration { from, at_most } => Box::new(penetration::Penetration::new(from, at_most)),
-                Promise::Rest { from, at_most } => Box::new(rest::Rest::new(from, at_most)),
-                Promise::Apex { body, bounce, y, tolerance } => {
-                    Box::new(apex::Apex::new(bodies.slot_of(body), body, bounce, y, tolerance))
-                }
-            }
-        })
-        .collect()
-}
-
-/// A promise in words.
-pub struct Words<'a>(pub &'a Promise);
-
-impl fmt::Display for Words<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Promise::Within { min, max, tolerance } => {
-                let (x, y) = ((min.x, max.x), (min.y, max.y));
-                write!(f, "all stay within x {}..{}, y {}..{}, +-{tolerance:.2} px", x.0, x.1, y.0, y.1)
-            }
-            Promise::Penetration { from, at_most } => write!(f, "no overlap above {at_most:.3} px from step {from}"),
-            Promise::Rest { from, at_most } => write!(f, "no speed above {at_most:.3} px/s from step {from}"),
-            Promise::Apex { body, bounce, y, tolerance } => {
-                write!(f, "bounce {bounce} of body {body} peaks at y {y:.2} +-{tolerance:.2} px")
-            }
+/// The check of a promise, in a scene with this gravity, px/s2 downwards.
+fn check(promise: &Promise, bodies: &Bodies, scalar: ScalarKind, gravity: f64) -> Box<dyn Check> {
+    let slot = |number| bodies.slot_of(number);
+    match *promise {
+        Promise::Within { min, max, tolerance } => Box::new(within::Within::new(min, max, tolerance)),
+        Promise::Penetration { from, at_most } => Box::new(penetration::Penetration::new(from, at_most)),
+        Promise::Rest { from, body, at_most } => Box::new(rest::Rest::new(from, body, at_most)),
+        Promise::Still { from } => Box::new(still::Still::new(from)),
+        Promise::Down { at_most } => Box::new(down::Down::new(at_most)),
+        Promise::Apex { body, bounce, y, tolerance } => {
+            Box::new(apex::Apex::new(slot(body), body, bounce, y, tolerance))
+        }
+        Promise::Energy { from, body, at_least, at_most } => {
+            Box::new(energy::Energy::new(from, body, [at_least, at_most], gravity))
+        }
+        Promise::Momentum => Box::new(momentum::Momentum::new(scalar, bodies.as_slice())),
+        Promise::CentreOfMass { at_most } => Box::new(centre_of_mass::CentreOfMass::new(at_most)),
+        Promise::Parabola { at_most } => Box::new(parabola::Parabola::new(scalar, at_most, gravity)),
+        Promise::Travel { tolerance } => Box::new(travel::Travel::new(scalar, tolerance)),
+        Promise::Opposite { bodies } => Box::new(opposite::Opposite::new(scalar, bodies, bodies.map(slot))),
+        Promise::Terminal { damping, tolerance } => Box::new(terminal::Terminal::new(damping, tolerance, gravity)),
+        Promise::StopDistance { body, distance, tolerance } => {
+            Box::new(stop_distance::StopDistance::new(slot(body), body, distance, tolerance))
+        }
+        Promise::Slip { bodies, at_most } => Box::new(slip::Slip::new(bodies, bodies.map(slot), at_most)),
+        Promise::Steady => Box::new(steady::Steady::new()),
+        Promise::Sides => Box::new(sides::Sides::new()),
+        Promise::Load { body, from, mass, tolerance } => {
+            Box::new(load::Load::new(slot(body), body, from, f64::from(mass) * gravity / STEP_HZ, tolerance))
         }
     }
 }

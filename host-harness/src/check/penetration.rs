@@ -4,10 +4,11 @@ use fixed::types::I16F16;
 
 use super::body::Extent;
 use super::worst::Worst;
-use super::{Body, Check, Finding};
+use super::{Body, Check, Finding, State};
 
 /// The check.
-pub struct Penetration {
+#[derive(Debug)]
+pub(super) struct Penetration {
     from_step: u32,
     at_most: f64,
     deepest: Worst,
@@ -15,20 +16,20 @@ pub struct Penetration {
 
 impl Penetration {
     /// From which step on, and the limit in px.
-    pub fn new(from_step: u32, at_most: I16F16) -> Self {
+    pub(super) fn new(from_step: u32, at_most: I16F16) -> Self {
         let at_most = f64::from(at_most);
         Self { from_step, at_most, deepest: Worst::new(at_most, "px") }
     }
 }
 
 impl Check for Penetration {
-    fn observe(&mut self, step: u32, bodies: &[Body]) {
+    fn observe(&mut self, &State { step, bodies, .. }: &State<'_>) {
         if step < self.from_step {
             return;
         }
         for (slot, a) in bodies.iter().enumerate() {
             for (other, b) in bodies.iter().enumerate().skip(slot + 1) {
-                if (a.moves || b.moves) && a.present && b.present {
+                if (a.moves || b.moves) && a.present && b.present && a.solid && b.solid {
                     let depth = overlap(a, b).max(0.0);
                     self.deepest.take(step, depth, || format!("between bodies {slot} and {other}"));
                 }
@@ -46,7 +47,7 @@ impl Check for Penetration {
 }
 
 /// How far two shapes overlap: the shortest way to pull them apart, px; negative when they are apart.
-fn overlap(a: &Body, b: &Body) -> f64 {
+pub(super) fn overlap(a: &Body, b: &Body) -> f64 {
     let offset = [0, 1].map(|axis| b.position[axis] - a.position[axis]);
     match (a.extent, b.extent) {
         (Extent::Circle { radius: a }, Extent::Circle { radius: b }) => a + b - offset[0].hypot(offset[1]),

@@ -4,10 +4,11 @@ use fixed::types::I16F16;
 use flat_physics::Vec2;
 
 use super::worst::Worst;
-use super::{Body, Check, Finding};
+use super::{Check, Finding, State};
 
 /// The check.
-pub struct Within {
+#[derive(Debug)]
+pub(super) struct Within {
     min: [f64; 2],
     max: [f64; 2],
     tolerance: f64,
@@ -16,7 +17,7 @@ pub struct Within {
 
 impl Within {
     /// The rectangle, and how far outside is still within, px.
-    pub fn new(min: Vec2<I16F16>, max: Vec2<I16F16>, tolerance: I16F16) -> Self {
+    pub(super) fn new(min: Vec2<I16F16>, max: Vec2<I16F16>, tolerance: I16F16) -> Self {
         let corner = |corner: Vec2<I16F16>| [f64::from(corner.x), f64::from(corner.y)];
         let tolerance = f64::from(tolerance);
         Self { min: corner(min), max: corner(max), tolerance, outside: Worst::new(tolerance, "px") }
@@ -24,7 +25,7 @@ impl Within {
 }
 
 impl Check for Within {
-    fn observe(&mut self, step: u32, bodies: &[Body]) {
+    fn observe(&mut self, &State { step, bodies, .. }: &State<'_>) {
         for (slot, body) in bodies.iter().enumerate().filter(|(_, body)| body.moves) {
             if !body.present {
                 self.outside.take(step, f64::INFINITY, || format!("outside: body {slot} is gone from the world"));

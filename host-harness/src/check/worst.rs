@@ -12,7 +12,7 @@ struct Sample {
 
 /// Keeps the worst value and the first one above the limit.
 #[derive(Debug)]
-pub struct Worst {
+pub(super) struct Worst {
     limit: f64,
     unit: &'static str,
     highest: Option<Sample>,
@@ -21,12 +21,12 @@ pub struct Worst {
 
 impl Worst {
     /// Nothing measured yet.
-    pub fn new(limit: f64, unit: &'static str) -> Self {
+    pub(super) fn new(limit: f64, unit: &'static str) -> Self {
         Self { limit, unit, highest: None, first_failure: None }
     }
 
     /// Takes a measurement; `who` says whose it is. Not-a-number is above every limit.
-    pub fn take(&mut self, step: u32, value: f64, who: impl FnOnce() -> String) {
+    pub(super) fn take(&mut self, step: u32, value: f64, who: impl FnOnce() -> String) {
         let value = if value.is_nan() { f64::INFINITY } else { value };
         if self.highest.as_ref().is_some_and(|highest| value <= highest.value) {
             return;
@@ -39,7 +39,7 @@ impl Worst {
     }
 
     /// The finding; `untested` says why there may be no measurement.
-    pub fn finding(&self, check: String, expected: String, untested: &str) -> Finding {
+    pub(super) fn finding(&self, check: String, expected: String, untested: &str) -> Finding {
         let limit = Some(self.limit);
         let Some(highest) = &self.highest else {
             return Finding {
@@ -52,6 +52,7 @@ impl Worst {
                 measured: None,
                 limit,
                 unit: self.unit,
+                used: None,
             };
         };
         let (outcome, decisive) = match &self.first_failure {
@@ -74,6 +75,7 @@ impl Worst {
             measured: Some(highest.value),
             limit,
             unit: self.unit,
+            used: Some(if highest.value > 0.0 { highest.value / self.limit } else { 0.0 }),
         }
     }
 

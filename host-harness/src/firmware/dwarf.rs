@@ -2,13 +2,16 @@
 //!
 //! After link-time optimisation few functions keep a symbol; the debug information still knows all of them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
-use gimli::{AttributeValue, DebugInfoOffset, DebuggingInformationEntry, Dwarf, EndianSlice, LittleEndian, UnitRef};
+use gimli::{
+    AttributeValue, DebugInfoOffset, DebuggingInformationEntry, DwTag, Dwarf, EndianSlice, LittleEndian, Operation,
+    UnitRef,
+};
 use object::{Object, ObjectSection};
 
-type Slice<'data> = EndianSlice<'data, LittleEndian>;
+pub type Slice<'data> = EndianSlice<'data, LittleEndian>;
 type Entry<'data> = DebuggingInformationEntry<Slice<'data>>;
 
 /// Some code of a source-level function.
@@ -25,16 +28,12 @@ pub struct Place {
 /// # Errors
 /// If the debug information is damaged.
 pub fn places<'data>(file: &impl Object<'data>, wanted: impl Fn(&str) -> bool) -> Result<Vec<Place>, gimli::Error> {
-    let dwarf = Dwarf::load(|id| {
-        let section = file.section_by_name(id.name());
-        let data = section.and_then(|section| section.data().ok()).unwrap_or_default();
-        Ok::<_, gimli::Error>(EndianSlice::new(data, LittleEndian))
-    })?;
+    let dwarf = load(file)?;
     let mut names = Names::default();
-    each_function(&dwarf, |unit, entry| names.note(unit, entry))?;
+    each_entry(&dwarf, &FUNCTIONS, |unit, entry| names.note(unit, entry))?;
 
     let mut places = Vec::new();
-    each_function(&dwarf, |unit, entry| {
+    each_entry(&dwarf, &FUNCTIONS, |unit, entry| {
         let Some(name) = names.of(unit, entry).filter(|name| wanted(name)) else { return Ok(()) };
         let mut ranges = unit.die_ranges(entry)?;
         while let Some(range) = ranges.next()? {
@@ -48,9 +47,45 @@ pub fn places<'data>(file: &impl Object<'data>, wanted: impl Fn(&str) -> bool) -
     Ok(places)
 }
 
-/// Visits all entries of functions and of their inlined copies.
-fn each_function<'data>(
+/// Lists the tables behind trait objects, by address: `<Type as Trait>::{vtable}`.
+///
+/// # Errors
+/// If the debug information is damaged.
+pub fn vtables<'data>(file: &impl Object<'data>) -> Result<BTreeMap<u32, String>, gimli::Error> {
+    let dwarf = load(file)?;
+    let mut tables = BTreeMap::new();
+    each_entry(&dwarf, &[gimli::DW_TAG_variable], |unit, entry| {
+        let (Some(name), Some(AttributeValue::Exprloc(place))) =
+            (entry.attr_value(gimli::DW_AT_name), entry.attr_value(gimli::DW_AT_location))
+        else {
+            return Ok(());
+        };
+        let name = unit.attr_string(name)?.to_string_lossy();
+        if let Some(Operation::Address { address }) = place.operations(unit.encoding()).next()?
+            && name.ends_with("::{vtable}")
+        {
+            tables.insert(address as u32, name.into_owned());
+        }
+        Ok(())
+    })?;
+    Ok(tables)
+}
+
+pub fn load<'data>(file: &impl Object<'data>) -> Result<Dwarf<Slice<'data>>, gimli::Error> {
+    Dwarf::load(|id| {
+        let section = file.section_by_name(id.name());
+        let data = section.and_then(|section| section.data().ok()).unwrap_or_default();
+        Ok::<_, gimli::Error>(EndianSlice::new(data, LittleEndian))
+    })
+}
+
+/// Functions and their inlined copies.
+const FUNCTIONS: [DwTag; 2] = [gimli::DW_TAG_subprogram, gimli::DW_TAG_inlined_subroutine];
+
+/// Visits all entries of some kinds.
+fn each_entry<'data>(
     dwarf: &Dwarf<Slice<'data>>,
+    tags: &[DwTag],
     mut visit: impl FnMut(UnitRef<'_, Slice<'data>>, &Entry<'data>) -> Result<(), gimli::Error>,
 ) -> Result<(), gimli::Error> {
     let mut headers = dwarf.units();
@@ -58,7 +93,7 @@ fn each_function<'data>(
         let unit = dwarf.unit(header)?;
         let mut entries = unit.entries();
         while let Some(entry) = entries.next_dfs()? {
-            if matches!(entry.tag, gimli::DW_TAG_subprogram | gimli::DW_TAG_inlined_subroutine) {
+            if tags.contains(&entry.tag) {
                 visit(unit.unit_ref(dwarf), entry)?;
             }
         }

@@ -1,5 +1,6 @@
 //! What an image holds: code, functions, sizes, and instructions that its core would trap on.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,13 +20,17 @@ pub struct Image {
     pub path: PathBuf,
     /// Its functions, by ascending address.
     pub functions: Vec<Function>,
-    /// What it takes of the chip's memories.
+    /// What it takes of the chip's memories, by use.
     pub sizes: Sizes,
+    /// The same, by section; the stack included.
+    pub sections: Vec<Section>,
     code: Vec<Code>,
+    objects: Vec<Function>,
+    labels: Vec<(u32, String)>,
     bytes: Vec<u8>,
 }
 
-/// A function with an address of its own; what was inlined everywhere has none.
+/// A function, or a constant or variable, with an address of its own; what was inlined everywhere has none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Function {
     /// Demangled, without the hash.
@@ -47,6 +52,19 @@ pub struct Sizes {
     pub data: u64,
     /// Variables that start as zero.
     pub bss: u64,
+}
+
+/// A part of the chip's memory that is loaded or reserved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Section {
+    /// As the linker script names it.
+    pub name: String,
+    /// Where it starts.
+    pub address: u32,
+    /// Bytes.
+    pub size: u64,
+    /// Whether the image holds its contents.
+    pub is_stored: bool,
 }
 
 /// A run of instructions with no data inside.
@@ -83,25 +101,28 @@ impl Image {
     #[cfg(test)]
     pub(super) fn of(functions: Vec<Function>, code: &[(u32, &[u8])], sizes: Sizes) -> Self {
         let code = code.iter().map(|&(address, bytes)| Code { address, bytes: bytes.to_vec() }).collect();
-        Self { path: PathBuf::new(), functions, sizes, code, bytes: Vec::new() }
+        let (sections, objects, labels) = (Vec::new(), Vec::new(), Vec::new());
+        Self { path: PathBuf::new(), functions, sizes, sections, code, objects, labels, bytes: Vec::new() }
     }
 
     fn parse(path: &Path, bytes: Vec<u8>) -> object::Result<Self> {
         let file = ElfFile32::<LittleEndian>::parse(&bytes[..])?;
-        let mut functions: Vec<_> = file
-            .symbols()
-            .filter(|symbol| symbol.kind() == SymbolKind::Text && symbol.size() > 0)
-            .filter_map(|symbol| {
-                let name = format!("{:#}", rustc_demangle::demangle(symbol.name().ok()?));
-                Some(Function { name, address: symbol.address() as u32, size: symbol.size() as u32 })
-            })
-            .collect();
-        functions.sort_by_key(|function| function.address);
+        let functions = symbols(&file, SymbolKind::Text);
+        let objects = symbols(&file, SymbolKind::Data);
+        let labels = labels(&file);
 
         let mut code = Vec::new();
         let mut sizes = Sizes::default();
+        let mut sections = Vec::new();
         for section in file.sections() {
-            sizes.add(&section);
+            if takes_memory(&section) {
+                let name = section.name()?.to_owned();
+                if !takes_what_is_left(&name) {
+                    sizes.add(&section);
+                }
+                let is_stored = section.kind() != SectionKind::UninitializedData;
+                sections.push(Section { name, address: section.address() as u32, size: section.size(), is_stored });
+            }
             if section.kind() == SectionKind::Text {
                 let marks = file.symbols().filter(|symbol| symbol.section_index() == Some(section.index()));
                 let marks = marks.filter_map(|symbol| Some((symbol.address(), symbol.name().ok()?.to_owned())));
@@ -109,7 +130,7 @@ impl Image {
                 code.extend(cut(section.address() as u32, section.data()?, marks, functions));
             }
         }
-        Ok(Self { path: path.to_owned(), functions, sizes, code, bytes })
+        Ok(Self { path: path.to_owned(), functions, sizes, sections, code, objects, labels, bytes })
     }
 
     /// Where the functions whose names are `wanted` have code, inlined copies included.
@@ -119,6 +140,19 @@ impl Image {
     pub fn places(&self, wanted: impl Fn(&str) -> bool) -> Result<Vec<Place>, Error> {
         let file = ElfFile32::<LittleEndian>::parse(&self.bytes[..]).map_err(|error| unusable(&self.path, &error))?;
         dwarf::places(&file, wanted).map_err(|error| unusable(&self.path, &error))
+    }
+
+    /// The tables behind trait objects, by address.
+    ///
+    /// # Errors
+    /// If the image has no usable debug information.
+    pub fn vtables(&self) -> Result<BTreeMap<u32, String>, Error> {
+        // An image put together by a test.
+        if self.bytes.is_empty() {
+            return Ok(BTreeMap::new());
+        }
+        let file = ElfFile32::<LittleEndian>::parse(&self.bytes[..]).map_err(|error| unusable(&self.path, &error))?;
+        dwarf::vtables(&file).map_err(|error| unusable(&self.path, &error))
     }
 
     /// All instructions with their addresses.
@@ -144,6 +178,19 @@ impl Image {
         self.functions[..after].iter().rev().find(|function| address - function.address < function.size)
     }
 
+    /// Who the code at an address belongs to: a function, else whatever label of assembly stands before it.
+    pub fn code_name(&self, address: u32) -> &str {
+        let before = self.labels.partition_point(|&(at, _)| at <= address);
+        let label = || self.labels[..before].last().map(|(_, name)| name.as_str());
+        self.function_at(address).map(|function| function.name.as_str()).or_else(label).unwrap_or("?")
+    }
+
+    /// The constant or variable that an address lies in, if it has a name.
+    pub fn object_at(&self, address: u32) -> Option<&Function> {
+        let after = self.objects.partition_point(|object| object.address <= address);
+        self.objects[..after].iter().rev().find(|object| address - object.address < object.size)
+    }
+
     /// What binutils' disassembler cannot read as rv32imc, line by line; none if it isn't installed.
     ///
     /// # Errors
@@ -161,6 +208,37 @@ impl Image {
 
 fn unusable(path: &Path, error: &dyn fmt::Display) -> Error {
     Error::target(format!("{} is no usable RISC-V image: {error}", path.display()), "build it again")
+}
+
+/// The symbols of a kind that have a size, by ascending address.
+fn symbols<'data>(file: &impl Object<'data>, kind: SymbolKind) -> Vec<Function> {
+    let mut found: Vec<_> = file
+        .symbols()
+        .filter(|symbol| symbol.kind() == kind && symbol.size() > 0)
+        .filter_map(|symbol| {
+            let name = format!("{:#}", rustc_demangle::demangle(symbol.name().ok()?));
+            Some(Function { name, address: symbol.address() as u32, size: symbol.size() as u32 })
+        })
+        .collect();
+    found.sort_by_key(|symbol| symbol.address);
+    found
+}
+
+/// Names in executable sections that have no size, as assembly has them, by ascending address.
+fn labels<'data>(file: &impl Object<'data>) -> Vec<(u32, String)> {
+    let is_code = |symbol: &_| -> bool {
+        let section = ObjectSymbol::section_index(symbol).and_then(|index| file.section_by_index(index).ok());
+        section.is_some_and(|section| section.kind() == SectionKind::Text)
+    };
+    let mut found: Vec<_> = file
+        .symbols()
+        .filter(|symbol| symbol.size() == 0 && is_code(symbol))
+        .filter_map(|symbol| Some((symbol.address() as u32, symbol.name().ok()?.to_owned())))
+        // Mapping symbols and what the assembler made up.
+        .filter(|(_, name)| !name.is_empty() && !name.starts_with(['$', '.']))
+        .collect();
+    found.sort_by_key(|&(address, _)| address);
+    found
 }
 
 /// Cuts a section into runs of instructions.
@@ -218,20 +296,29 @@ fn is_known_to_every_core(bytes: &str) -> bool {
     u32::from_str_radix(bytes, 16).is_ok_and(|word| word == 0 || [SYSTEM, MISC_MEM].contains(&(word & 0x7f)))
 }
 
+/// Whether a section takes any of the chip's memory.
+fn takes_memory<'data>(section: &impl ObjectSection<'data>) -> bool {
+    // esp-hal's linker scripts keep addresses free with sections that hold nothing and can't be written.
+    let is_gap = section.kind() == SectionKind::UninitializedData
+        && !has(section, elf::SHF_WRITE)
+        && !section.name().is_ok_and(takes_what_is_left);
+    has(section, elf::SHF_ALLOC) && !is_gap
+}
+
+fn takes_what_is_left(name: &str) -> bool {
+    matches!(name, ".stack" | ".heap")
+}
+
+fn has<'data>(section: &impl ObjectSection<'data>, flag: elf::SectionFlags) -> bool {
+    matches!(section.flags(), SectionFlags::Elf { sh_flags, .. } if sh_flags.contains(flag))
+}
+
 impl Sizes {
     fn add<'data>(&mut self, section: &impl ObjectSection<'data>) {
-        let SectionFlags::Elf { sh_flags, .. } = section.flags() else { return };
-        let has = |flag: elf::SectionFlags| sh_flags.contains(flag);
-        let takes_what_is_left = matches!(section.name(), Ok(".stack" | ".heap"));
-        // esp-hal's linker scripts keep addresses free with sections that hold nothing and can't be written.
-        let is_gap = section.kind() == SectionKind::UninitializedData && !has(elf::SHF_WRITE);
-        if !has(elf::SHF_ALLOC) || takes_what_is_left || is_gap {
-            return;
-        }
         let total = match section.kind() {
             SectionKind::UninitializedData => &mut self.bss,
-            _ if has(elf::SHF_EXECINSTR) => &mut self.text,
-            _ if has(elf::SHF_WRITE) => &mut self.data,
+            _ if has(section, elf::SHF_EXECINSTR) => &mut self.text,
+            _ if has(section, elf::SHF_WRITE) => &mut self.data,
             _ => &mut self.rodata,
         };
         *total += section.size();

@@ -59,6 +59,20 @@ pub fn check() -> Result<Outcome, Error> {
     Ok(Outcome::TypeChecked { release: compiler.release })
 }
 
+/// Builds the ESP32's firmware.
+///
+/// # Errors
+/// If espup's toolchain isn't there, or the firmware doesn't compile.
+pub fn build_image() -> Result<PathBuf, Error> {
+    if has_espup() {
+        return build();
+    }
+    Err(Error::target(
+        "no compiler for the ESP32: its Xtensa core takes Espressif's",
+        "`cargo install espup --locked && espup install`, and what that prints; docs/boards.md has the steps",
+    ))
+}
+
 fn has_espup() -> bool {
     toolchain::installed("rustup").is_some()
         && Command::new("rustup")

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
+use clap::Args;
+
 use super::subprocess;
 use super::toolchain::{RISCV_TARGET, Toolchain};
 use super::workspace;
@@ -41,28 +43,81 @@ impl fmt::Display for Board {
     }
 }
 
+/// What an image is built for, beside its board.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Args)]
+#[group(id = "build_kind")]
+pub struct Build {
+    /// A test build: it obeys commands that make it fail
+    #[arg(long)]
+    pub provoke: bool,
+
+    /// For the ESP32-C3's own USB port instead of UART0
+    #[arg(long)]
+    pub usb: bool,
+}
+
+impl Build {
+    /// A product for UART0.
+    pub const PRODUCT: Self = Self { provoke: false, usb: false };
+    /// The same for tests.
+    pub const PROVOKE: Self = Self { provoke: true, usb: false };
+
+    /// What it adds to the firmware, by the names of its features.
+    fn features(self) -> impl Iterator<Item = &'static str> {
+        [("usb", self.usb), ("provoke", self.provoke)].into_iter().filter(|&(_, is_on)| is_on).map(|(name, _)| name)
+    }
+}
+
 /// Builds the firmware for a RISC-V board and returns its image; next to no work if it is up to date.
 ///
 /// # Errors
 /// If there is no toolchain or the firmware doesn't compile; the error carries the compiler's words.
 pub fn build(board: Board) -> Result<PathBuf, Error> {
+    build_as(board, Build::PRODUCT)
+}
+
+/// Builds the firmware for use or for tests.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_as(board: Board, kind: Build) -> Result<PathBuf, Error> {
     let mut cargo = Toolchain::find()?.cargo("build")?;
     choose(board, &mut cargo)?;
-    subprocess::run(&format!("building the {board} firmware"), &mut cargo)?;
+    let mut suffix = String::new();
+    for feature in kind.features() {
+        cargo.args(["--features", feature]);
+        suffix = format!("{suffix}-{feature}");
+    }
+    // Another image of the same sources: what reads its logs mustn't take it for this one.
+    cargo.env("FLAT_BUILD", workspace::build_id()? + &suffix);
+    let name = format!("{board}{suffix}");
+    subprocess::run(&format!("building the {name} firmware"), &mut cargo)?;
 
     // All boards' images leave the build under one name: each gets a place of its own.
-    let target_dir = workspace::target_dir()?.join("firmware");
-    let built = target_dir.join(RISCV_TARGET).join(PROFILE).join("flat-firmware");
-    let images = target_dir.join("images");
-    let (image, partial) = (images.join(format!("{board}.elf")), images.join(format!("{board}.partial")));
+    let built = workspace::target_dir()?.join("firmware").join(RISCV_TARGET).join(PROFILE).join("flat-firmware");
+    let image = path(&name)?;
+    let partial = image.with_extension("partial");
     // The rename replaces the image in one go, under an emulator that may still be reading the old one.
-    fs::create_dir_all(&images)
+    fs::create_dir_all(image.with_file_name(""))
         .and_then(|()| fs::copy(&built, &partial))
         .and_then(|_| fs::rename(&partial, &image))
         .map_err(|error| {
             Error::target(format!("cannot copy {} to {}: {error}", built.display(), image.display()), "")
         })?;
     Ok(image)
+}
+
+/// Where the image of a board that says of itself to be of this build is, if it was built here.
+///
+/// # Errors
+/// If the workspace is gone.
+pub fn of(board: &str, build: &str) -> Result<PathBuf, Error> {
+    let features = build.find('-').map_or("", |start| &build[start..]);
+    path(&format!("{board}{features}"))
+}
+
+fn path(name: &str) -> Result<PathBuf, Error> {
+    Ok(workspace::target_dir()?.join("firmware/images").join(format!("{name}.elf")))
 }
 
 /// Chooses package, profile and feature in a cargo call, and tells the firmware its build id.

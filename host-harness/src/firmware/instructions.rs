@@ -45,45 +45,6 @@ impl Instruction {
     pub(crate) fn extension(self) -> Option<Extension> {
         if self.length == 2 { compressed(self.word) } else { full(self.word) }
     }
-
-    /// Where a jump goes whose distance stands in the instruction itself, for an instruction at `address`.
-    pub(crate) fn jump_target(self, address: u32) -> Option<u32> {
-        let word = self.word;
-        let bit = |from: u32, to: u32| ((word >> from) & 1) << to;
-        let bits = |from: u32, count: u32, to: u32| ((word >> from) & ((1 << count) - 1)) << to;
-        let distance = match (self.length, word & 0x7f) {
-            // jal
-            (4, 0x6f) => sign_extend(bit(31, 20) | bits(12, 8, 12) | bit(20, 11) | bits(21, 10, 1), 21),
-            // c.jal and c.j
-            (2, _) if word & 0b11 == 0b01 && matches!(word >> 13, 0b001 | 0b101) => sign_extend(
-                bit(12, 11)
-                    | bit(11, 4)
-                    | bits(9, 2, 8)
-                    | bit(8, 10)
-                    | bit(7, 6)
-                    | bit(6, 7)
-                    | bits(3, 3, 1)
-                    | bit(2, 5),
-                12,
-            ),
-            _ => return None,
-        };
-        Some(address.wrapping_add(distance))
-    }
-
-    /// Where `auipc` here and `jalr` next go, for an `auipc` at `address`: the far call and tail call of the psABI.
-    pub(crate) fn far_jump_target(self, next: Self, address: u32) -> Option<u32> {
-        let register = (self.word >> 7) & 0x1f;
-        let is_auipc = self.length == 4 && self.word & 0x7f == 0x17;
-        let is_jalr = next.length == 4 && next.word & 0x707f == 0x67 && (next.word >> 15) & 0x1f == register;
-        (is_auipc && is_jalr)
-            .then(|| address.wrapping_add(self.word & 0xffff_f000).wrapping_add(sign_extend(next.word >> 20, 12)))
-    }
-}
-
-fn sign_extend(value: u32, width: u32) -> u32 {
-    let unused = 32 - width;
-    ((value << unused).cast_signed() >> unused).cast_unsigned()
 }
 
 fn full(word: u32) -> Option<Extension> {
@@ -193,20 +154,5 @@ mod tests {
     fn a_cut_off_end_is_left_out() {
         assert_eq!(decode(&[0x2f, 0xa5, 0x05]).count(), 0);
         assert_eq!(decode(&[0x01]).count(), 0);
-    }
-
-    #[test]
-    fn jumps_land_where_the_assembler_aimed() {
-        let first = |code: &[u8]| decode(code).next().expect("one instruction");
-        // jal ra, .-4; jal ra, .+0x12344
-        assert_eq!(first(&0xffdf_f0ef_u32.to_le_bytes()).jump_target(0x1000), Some(0xffc));
-        assert_eq!(first(&0x3441_20ef_u32.to_le_bytes()).jump_target(0x1000), Some(0x1_3344));
-        // c.j .-2; c.jal .+0x146
-        assert_eq!(first(&0xbffd_u16.to_le_bytes()).jump_target(0x1000), Some(0xffe));
-        assert_eq!(first(&0x2299_u16.to_le_bytes()).jump_target(0x1000), Some(0x1146));
-        // auipc ra, 0x1c80; jalr -16(ra)
-        let pair: Vec<_> = decode(&[0x97, 0x00, 0xc8, 0x01, 0xe7, 0x80, 0x00, 0xff]).collect();
-        assert_eq!(pair[0].far_jump_target(pair[1], 0x4038_0000), Some(0x4200_0000 - 16));
-        assert_eq!(pair[1].far_jump_target(pair[0], 0x4038_0004), None);
     }
 }

@@ -169,6 +169,13 @@ impl Toolchain {
         Ok(())
     }
 
+    /// The compiler's release, `1.96.0`.
+    pub fn release(&self) -> &str {
+        match self {
+            Self::Prebuilt(compiler) | Self::BuildStd { compiler, .. } => &compiler.release,
+        }
+    }
+
     /// What it is, in a line.
     pub fn describe(&self) -> String {
         match self {

@@ -1,9 +1,16 @@
 //! What came of a run: one verdict for each scenario and target, told on the terminal and in a file.
 
+pub mod figures;
+pub mod file;
 pub mod json;
 pub mod list;
+pub mod marks;
+pub mod page;
+pub mod plot;
 pub mod progress;
+pub mod scale;
 pub mod terminal;
+pub mod wait;
 
 use std::time::Duration;
 
@@ -63,6 +70,8 @@ pub struct Parameters {
     /// Number format.
     #[serde(serialize_with = "lowercase")]
     pub scalar: ScalarKind,
+    /// The options that differ from the scene's defaults.
+    pub options: String,
 }
 
 /// Frames that didn't make it.

@@ -1,6 +1,21 @@
-//! A progress bar on standard error while a target runs; nothing where that isn't a terminal.
+//! Progress bars on standard error while a target runs; nothing where that isn't a terminal.
+
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
+
+/// Whether a bar over many runs is shown, below which those of single runs would only flicker.
+static OVERALL: AtomicBool = AtomicBool::new(false);
+
+/// A bar over many runs, for the rest of the command.
+pub fn overall(settings: usize) -> ProgressBar {
+    OVERALL.store(true, Ordering::Relaxed);
+    let bar = ProgressBar::new(settings as u64);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}, {eta} left  {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
 
 /// The bar of one run; gone when dropped.
 #[derive(Debug)]
@@ -9,6 +24,9 @@ pub struct Progress(ProgressBar);
 impl Progress {
     /// A bar of so many steps.
     pub fn new(scene: &str, target: &str, steps: u32) -> Self {
+        if OVERALL.load(Ordering::Relaxed) {
+            return Self(ProgressBar::hidden());
+        }
         let bar = ProgressBar::new(steps.into());
         if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} step {pos} of {len}, {eta} left") {
             bar.set_style(style);

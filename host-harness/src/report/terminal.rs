@@ -64,10 +64,14 @@ impl Columns {
             verdict.duration.as_secs_f32(),
             summary(verdict),
         );
+        if !verdict.parameters.options.is_empty() {
+            println!("      {}", style(&verdict.parameters.options).dim());
+        }
         for finding in &verdict.checks {
             match finding.outcome {
                 Outcome::Held => {}
                 Outcome::Failed => print_failure(finding),
+                Outcome::Short => println!("      {} falls short, as is known: {}", finding.check, finding.got),
                 Outcome::Untested => println!("      {} untested: {}", finding.check, finding.got),
             }
         }
@@ -81,6 +85,21 @@ impl Columns {
         }
         if !verdict.passed {
             print_field("rerun", &verdict.rerun);
+        }
+    }
+}
+
+/// Prints what was measured beside what is allowed, for every check that measures something.
+pub fn print_figures(verdict: &Verdict) {
+    for Finding { check, outcome, measured, limit, unit, .. } in &verdict.checks {
+        if let (Some(measured), Some(limit)) = (measured, limit) {
+            let mark = match outcome {
+                Outcome::Held => "  ",
+                Outcome::Failed => "!!",
+                Outcome::Short => " !",
+                Outcome::Untested => "??",
+            };
+            println!("      {mark} {measured:>12.4} | {limit:>12.4} {unit:5} {check}");
         }
     }
 }

@@ -17,6 +17,8 @@ use crate::firmware::workspace;
 const BODIES: usize = 4096;
 /// Most contacts.
 const CONTACTS: usize = 20_480;
+/// Most tiles of a map.
+const TILES: usize = 4096;
 /// Room for the frames of one step in full detail.
 const RING: usize = 512 * 1024;
 /// The worlds and the ring live on the thread's stack.
@@ -47,10 +49,14 @@ impl Peer for Mock {
     }
 }
 
-/// Time is only counted in instructions or cycles where there is a chip.
-struct NoStopwatch;
+/// The virtual clock, us. It stands still during a step; instructions and cycles are only counted where there is a chip.
+struct Clock(u64);
 
-impl Stopwatch for NoStopwatch {
+impl Stopwatch for Clock {
+    fn now_us(&mut self) -> u64 {
+        self.0
+    }
+
     fn count(&mut self) -> u32 {
         0
     }
@@ -58,9 +64,9 @@ impl Stopwatch for NoStopwatch {
 
 /// A device's main loop: commands in, the steps that are due, frames out.
 fn device(commands: &Receiver<Vec<u8>>, frames: &SyncSender<Vec<u8>>) {
-    let mut fixed = Storage::<Fixed, BODIES, CONTACTS>::new();
-    let mut f32 = Storage::<f32, BODIES, CONTACTS>::new();
-    let mut f64 = Storage::<f64, BODIES, CONTACTS>::new();
+    let mut fixed = Storage::<Fixed, BODIES, CONTACTS, TILES>::new();
+    let mut f32 = Storage::<f32, BODIES, CONTACTS, TILES>::new();
+    let mut f64 = Storage::<f64, BODIES, CONTACTS, TILES>::new();
     let worlds = Worlds { fixed: fixed.world(), f32: f32.world(), f64: f64.world() };
     let identity = Identity { board: "mock", build: build_id(), clock_hz: 0, counter: Counter::None };
     let mut session = Session::new(identity, worlds);
@@ -84,7 +90,7 @@ fn device(commands: &Receiver<Vec<u8>>, frames: &SyncSender<Vec<u8>>) {
             Err(TryRecvError::Disconnected) => return,
             Err(TryRecvError::Empty) => {
                 now_us = session.due_us().map_or(now_us, |due| due.max(now_us));
-                session.tick(now_us, &mut NoStopwatch, &mut ring);
+                session.tick(&mut Clock(now_us), &mut ring);
             }
         }
         if !hand_over(&mut ring, frames) {

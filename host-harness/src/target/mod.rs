@@ -1,10 +1,13 @@
 //! Where scenes run: what may be asked for on the command line, and how a link to it is opened.
 
 pub mod child;
+pub mod esp_qemu;
 pub mod exec;
 pub mod link;
 pub mod mock;
+pub mod ports;
 pub mod qemu;
+pub mod reset;
 pub mod serial;
 pub mod tcp;
 
@@ -16,6 +19,7 @@ use std::time::Duration;
 use crate::error::Error;
 use crate::firmware::image::{self, Board};
 use link::Link;
+use reset::Reset;
 
 /// A target by its name on the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,10 +28,12 @@ pub enum Target {
     Mock,
     /// The `qemu_virt` firmware in QEMU.
     Qemu,
+    /// The `esp32c3` firmware in Espressif's QEMU.
+    EspQemu,
     /// A board on a serial port.
     Serial {
-        /// The port.
-        path: String,
+        /// The port; none = that of the one board there is.
+        path: Option<String>,
         /// Its speed.
         baud: u32,
     },
@@ -40,10 +46,14 @@ pub enum Target {
 /// What opening a target may need beyond its name.
 #[derive(Clone, Debug)]
 pub struct Means {
-    /// QEMU image to run; none = build one.
+    /// QEMU image to run, none = build one; for others the image that they run, none = the one that rig built last.
     pub elf: Option<PathBuf>,
+    /// How fast QEMU's processor is.
+    pub speed: qemu::Speed,
     /// Longest wait for a connection.
     pub patience: Duration,
+    /// Whether to reset a board on a serial port.
+    pub reset: Reset,
 }
 
 impl Target {
@@ -52,16 +62,22 @@ impl Target {
     /// # Errors
     /// If there is nobody at the other end; each target says what to do about it.
     pub fn open(&self, means: &Means) -> Result<Link, Error> {
-        match self {
-            Self::Mock => mock::open(),
-            Self::Qemu => match &means.elf {
-                Some(elf) => qemu::open(elf),
-                None => qemu::open(&image::build(Board::QemuVirt)?),
-            },
-            Self::Serial { path, baud } => serial::open(path, *baud),
-            Self::Tcp(address) => tcp::open(address, means.patience),
-            Self::Exec(command) => exec::open(command),
-        }
+        let link = match self {
+            Self::Mock => return mock::open(),
+            Self::Qemu => {
+                let elf = means.elf.clone().map_or_else(|| image::build(Board::QemuVirt), Ok)?;
+                return Ok(qemu::open(&elf, means.speed)?.with_image(Some(elf)));
+            }
+            Self::EspQemu => {
+                esp_qemu::probe()?;
+                let elf = means.elf.clone().map_or_else(|| image::build(Board::Esp32c3), Ok)?;
+                return Ok(esp_qemu::open(&elf)?.with_image(Some(elf)));
+            }
+            Self::Serial { path, baud } => serial::open(path.as_deref(), *baud, means.reset)?,
+            Self::Tcp(address) => tcp::open(address, means.patience)?,
+            Self::Exec(command) => exec::open(command)?,
+        };
+        Ok(link.with_image(means.elf.clone()))
     }
 }
 
@@ -81,8 +97,12 @@ impl fmt::Display for Target {
         match self {
             Self::Mock => f.write_str("mock"),
             Self::Qemu => f.write_str("qemu"),
-            Self::Serial { path, baud: flat_wire::BAUD } => write!(f, "serial:{path}"),
-            Self::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
+            Self::EspQemu => f.write_str("esp-qemu"),
+            Self::Serial { path: None, baud: flat_wire::BAUD } => f.write_str("serial"),
+            Self::Serial { path, baud } => {
+                write!(f, "serial:{}", path.as_deref().unwrap_or_default())?;
+                if *baud == flat_wire::BAUD { Ok(()) } else { write!(f, "@{baud}") }
+            }
             Self::Tcp(address) => write!(f, "tcp:{address}"),
             Self::Exec(command) => write!(f, "exec:{command}"),
         }
@@ -116,7 +136,7 @@ fn parse(word: &str) -> Result<Target, String> {
     match (kind, argument) {
         ("mock", "") => Ok(Target::Mock),
         ("qemu", "") => Ok(Target::Qemu),
-        ("serial", "") => Err("serial: needs a port, as in serial:/dev/ttyACM0 or serial:COM3@115200".into()),
+        ("esp-qemu", "") => Ok(Target::EspQemu),
         ("serial", port) => {
             let (path, baud) = match port.rsplit_once('@') {
                 Some((path, baud)) => {
@@ -124,7 +144,7 @@ fn parse(word: &str) -> Result<Target, String> {
                 }
                 None => (port, flat_wire::BAUD),
             };
-            Ok(Target::Serial { path: path.into(), baud })
+            Ok(Target::Serial { path: Some(path.into()).filter(|path: &String| !path.is_empty()), baud })
         }
         ("tcp", address) => match address.rsplit_once(':') {
             Some((host, port)) if !host.is_empty() && port.parse::<u16>().is_ok() => Ok(Target::Tcp(address.into())),
@@ -132,7 +152,9 @@ fn parse(word: &str) -> Result<Target, String> {
         },
         ("exec", "") => Err("exec: needs a command, as in 'exec:emulator --image app.elf'".into()),
         ("exec", command) => Ok(Target::Exec(command.into())),
-        _ => Err(format!("`{word}` is none of mock, qemu, serial:PATH[@BAUD], tcp:HOST:PORT, exec:COMMAND")),
+        _ => {
+            Err(format!("`{word}` is none of mock, qemu, esp-qemu, serial[:PATH[@BAUD]], tcp:HOST:PORT, exec:COMMAND"))
+        }
     }
 }
 
@@ -148,8 +170,17 @@ mod tests {
 
     #[test]
     fn a_target_reads_back_what_it_prints() {
-        for text in ["mock", "qemu", "serial:/dev/ttyACM0", "serial:COM3@115200", "tcp:localhost:5555", "exec:a 'b c'"]
-        {
+        for text in [
+            "mock",
+            "qemu",
+            "esp-qemu",
+            "serial",
+            "serial:@115200",
+            "serial:/dev/ttyACM0",
+            "serial:COM3@115200",
+            "tcp:localhost:5555",
+            "exec:a 'b c'",
+        ] {
             let TargetList(targets) = text.parse().unwrap();
             assert_eq!(targets.iter().map(ToString::to_string).collect::<Vec<_>>(), [text]);
         }
@@ -158,12 +189,13 @@ mod tests {
     #[test]
     fn a_port_without_a_speed_has_the_speed_that_the_firmware_sets() {
         let TargetList(targets) = "serial:/dev/ttyUSB0".parse().unwrap();
-        assert_eq!(targets, [Target::Serial { path: "/dev/ttyUSB0".into(), baud: flat_wire::BAUD }]);
+        assert_eq!(targets, [Target::Serial { path: Some("/dev/ttyUSB0".into()), baud: flat_wire::BAUD }]);
     }
 
     #[test]
     fn what_is_no_target_is_refused() {
-        for text in ["", "mock,", "mock:1", "board", "serial:", "serial:p@fast", "tcp:5555", "tcp:host:70000", "exec:"]
+        for text in
+            ["", "mock,", "mock:1", "board", "serial:p@fast", "serial@9600", "tcp:5555", "tcp:host:70000", "exec:"]
         {
             assert!(text.parse::<TargetList>().is_err(), "{text}");
         }

@@ -9,15 +9,34 @@ use crate::error::Error;
 use crate::firmware::provision::QEMU;
 
 /// The board. `lowrisc-ibex` is exactly rv32imc: atomics and floats trap, as on an ESP32-C3.
-/// `shift=3` runs 125 million instructions a virtual second; `sleep=off` doesn't wait for the wall clock.
-const MACHINE: &str = "-M virt -cpu lowrisc-ibex -m 16M -smp 1 -bios none -display none -monitor none \
-                       -serial stdio -icount shift=3,sleep=off";
+const MACHINE: &str = "-M virt -cpu lowrisc-ibex -m 16M -smp 1 -bios none -display none -monitor none -serial stdio";
+
+/// How fast the virtual processor is; either way `sleep=off` doesn't wait for the wall clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Speed {
+    /// 125 million instructions a virtual second, as on an ESP32-C3.
+    #[default]
+    Board,
+    /// 1000 million: a step has long ended, and the line gone quiet, when the next one begins, so that no interrupt is counted
+    /// into a stage.
+    Quiet,
+}
+
+impl Speed {
+    /// Virtual nanoseconds of an instruction, as a power of two.
+    fn shift(self) -> u8 {
+        match self {
+            Self::Board => 3,
+            Self::Quiet => 0,
+        }
+    }
+}
 
 /// Starts QEMU on an image.
 ///
 /// # Errors
 /// If the image isn't there or QEMU cannot be started.
-pub fn open(elf: &Path) -> Result<Link, Error> {
+pub fn open(elf: &Path, speed: Speed) -> Result<Link, Error> {
     if !elf.is_file() {
         return Err(Error::target(
             format!("no firmware image at {}", elf.display()),
@@ -25,6 +44,7 @@ pub fn open(elf: &Path) -> Result<Link, Error> {
         ));
     }
     let mut command = Command::new(QEMU);
-    command.args(MACHINE.split_whitespace()).arg("-kernel").arg(elf);
+    command.args(MACHINE.split_whitespace()).arg("-icount").arg(format!("shift={},sleep=off", speed.shift()));
+    command.arg("-kernel").arg(elf);
     child::spawn(&mut command, "`cargo verify` installs it; or by hand: apt install qemu-system-misc")
 }

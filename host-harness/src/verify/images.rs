@@ -3,8 +3,8 @@
 use super::step::{Result, Verdict};
 use crate::firmware::elf::Image;
 use crate::firmware::esp32::{self, Outcome};
-use crate::firmware::hot_path;
 use crate::firmware::image::{self, Board};
+use crate::firmware::inspect::Inspection;
 use crate::firmware::provision;
 use crate::firmware::subprocess;
 use crate::firmware::toolchain::Toolchain;
@@ -56,12 +56,12 @@ pub(super) fn elf_esp32c3() -> Result {
         Verdict::Passed(text) => text,
         otherwise => return Ok(otherwise),
     };
-    let report = hot_path::check(&image)?;
-    if report.problems.is_empty() {
-        return Ok(Verdict::Passed(format!("{instructions}; {report}")));
-    }
-    let problems: Vec<_> = report.problems.into_iter().collect();
-    Ok(Verdict::Failed(shown("the hot path isn't all in RAM", &problems)))
+    let inspection = Inspection::of(&image)?;
+    let problems = inspection.problems();
+    Ok(match &problems[..] {
+        [] => Verdict::Passed(format!("{instructions}; {}", inspection.summary())),
+        problems => Verdict::Failed(shown("what must not be in RAM or want from flash", problems)),
+    })
 }
 
 /// Looks for instructions that an rv32imc core traps on, with our decoder and with binutils'.

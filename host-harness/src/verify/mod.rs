@@ -1,10 +1,12 @@
 //! `rig verify`: everything that must hold before a change goes in, in one command that also installs what it needs.
 
+mod baseline;
 mod host;
 mod images;
 mod scenarios;
 mod step;
 mod summary;
+mod trials;
 
 use std::time::Instant;
 
@@ -28,7 +30,7 @@ pub struct VerifyArgs {
 }
 
 /// The steps in their order; what finds most mistakes in least time comes first.
-const STEPS: [Step; 18] = [
+const STEPS: [Step; 24] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
@@ -50,6 +52,12 @@ const STEPS: [Step; 18] = [
         &["build-esp32c3"],
         images::elf_esp32c3,
     ),
+    Step::new(
+        "baseline",
+        "no more instructions and no more bytes than the committed ones",
+        &["build-qemu_virt", "build-esp32c3"],
+        baseline::compare,
+    ),
     Step::new("esp32", "the ESP32's firmware: a build, or else a type-check", &[], images::esp32),
     Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
     Step::new("scenes-qemu", "the same bits on QEMU, fixed point", &["build-qemu_virt"], scenarios::qemu_fixed),
@@ -67,6 +75,26 @@ const STEPS: [Step; 18] = [
         &["build-esp32c3"],
         scenarios::esp32c3_f32,
     ),
+    Step::new(
+        "scenes-esp-qemu",
+        "the same bits from the ESP32-C3's flash in Espressif's QEMU",
+        &["build-esp32c3"],
+        scenarios::esp_qemu,
+    ),
+    Step::new("link-qemu", "a bad link delays no step on QEMU", &["build-qemu_virt"], trials::link_qemu),
+    Step::new(
+        "link-esp32c3",
+        "a bad link delays no step on an emulated ESP32-C3",
+        &["build-esp32c3"],
+        trials::link_esp32c3,
+    ),
+    Step::new(
+        "faults-qemu",
+        "faults on QEMU say what, where and by which calls",
+        &["build-qemu_virt"],
+        trials::faults_qemu,
+    ),
+    Step::new("faults-esp32c3", "the same on an emulated ESP32-C3", &["build-esp32c3"], trials::faults_esp32c3),
 ];
 
 /// Goes through the steps; true if none failed. A step that fails stops only those that need it.

@@ -1,12 +1,14 @@
 //! Steps that run scenarios, through the command line that people use.
 
 use std::env;
+use std::path::PathBuf;
 use std::process::Command;
 
 use super::step::{Result, Verdict};
 use crate::error::{CHECK_FAILED, Error};
-use crate::firmware::image::{self, Board};
+use crate::firmware::image::{self, Board, Build};
 use crate::firmware::subprocess::{self, Ended};
+use crate::target::esp_qemu;
 
 /// A command that runs an ESP32-C3 image, `{elf}`, with the board's UART0 on its standard input and output.
 const EMULATOR: &str = "FLAT_C3_EMULATOR";
@@ -34,9 +36,24 @@ pub(super) fn esp32c3_f32() -> Result {
     esp32c3("f32")
 }
 
+pub(super) fn esp_qemu() -> Result {
+    match esp_qemu::probe() {
+        Ok(()) => rig(&["--target", "mock,esp-qemu", "--scalar", "fixed"]),
+        Err(missing) => Ok(Verdict::Skipped(missing.to_string())),
+    }
+}
+
 fn esp32c3(scalar: &str) -> Result {
+    match emulated(Build::PRODUCT)? {
+        Ok((target, _)) => rig(&["--target", "mock", "--target", &target, "--scalar", scalar]),
+        Err(missing) => Ok(Verdict::Skipped(missing)),
+    }
+}
+
+/// The target that runs an ESP32-C3 image under emulation, and the image; else why there is none.
+pub(super) fn emulated(kind: Build) -> core::result::Result<core::result::Result<(String, PathBuf), String>, Error> {
     let Ok(command) = env::var(EMULATOR) else {
-        return Ok(Verdict::Skipped(format!(
+        return Ok(Err(format!(
             "no emulator for the ESP32-C3: set {EMULATOR} to a command with {{elf}} for the image and the UART on its \
              standard input and output"
         )));
@@ -44,9 +61,9 @@ fn esp32c3(scalar: &str) -> Result {
     if !command.contains("{elf}") {
         return Err(Error::usage(format!("{EMULATOR} is `{command}`, without {{elf}}"), "say where the image goes"));
     }
-    let elf = image::build(Board::Esp32c3)?;
+    let elf = image::build_as(Board::Esp32c3, kind)?;
     let command = command.replace("{elf}", &shell_words::quote(&elf.to_string_lossy()));
-    rig(&["--target", "mock", "--target", &format!("exec:{command}"), "--scalar", scalar])
+    Ok(Ok((format!("exec:{command}"), elf)))
 }
 
 /// A comparison that cannot fail proves nothing: here it must fail, and say where.

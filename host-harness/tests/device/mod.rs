@@ -3,11 +3,11 @@
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpListener;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use flat_physics::{Fixed, Storage};
 use flat_session::{Identity, Ring, Session, Stopwatch, Worlds};
-use flat_wire::message::{Command, Counter, Event, Frame, Hello, Reply};
+use flat_wire::message::{self, Cause, Command, Counter, Event, FaultKind, Frame, Hello, Place, Reply};
 use flat_wire::{Decoder, MAX_FRAME, PROTOCOL_VERSION};
 
 /// What goes wrong.
@@ -35,6 +35,18 @@ pub(crate) enum Fault {
     Hang(u32),
     /// The connection closes after this step.
     Death(u32),
+    /// Opening the line resets the board: for a while it hears nothing, and its boot loader speaks at another speed.
+    Boot,
+    /// A boot loader that finds no program, in plain text.
+    Unprogrammed,
+    /// The device panics after this step and starts anew.
+    Panic(u32),
+    /// The device starts anew after this step without a word about why.
+    Brownout(u32),
+    /// It says hello, but first what its former life ended in.
+    FormerLife,
+    /// It logs something after this step, whatever that means.
+    Logs(u32),
 }
 
 /// Starts a device that serves one connection; returns its target for the command line.
@@ -51,9 +63,23 @@ pub(crate) fn start(fault: Fault) -> String {
 
 /// Runs the session on a virtual clock until the other side closes the line.
 pub(crate) fn serve(mut wire: impl Read + Write, fault: Fault) {
-    if fault == Fault::Flood {
-        while wire.write_all(&[0x55; 4096]).is_ok() {}
-        return;
+    match fault {
+        Fault::Flood => {
+            while wire.write_all(&[0x55; 4096]).is_ok() {}
+            return;
+        }
+        Fault::Boot => boot(&mut wire),
+        Fault::Unprogrammed => {
+            // Until rig has heard enough.
+            while wire
+                .write_all(b"rst:0x1 (POWERON),boot:0xc (SPI_FAST_FLASH_BOOT)\r\ninvalid header: 0xffffffff\r\n")
+                .is_ok()
+            {
+                thread::sleep(Duration::from_millis(20));
+            }
+            return;
+        }
+        _ => {}
     }
     let mut fixed = Box::new(Storage::<Fixed, 64, 256>::new());
     let mut f32 = Box::new(Storage::<f32, 64, 256>::new());
@@ -64,11 +90,15 @@ pub(crate) fn serve(mut wire: impl Read + Write, fault: Fault) {
     let mut ring = Box::new(Ring::<65_536>::new());
     let mut decoder = Decoder::new();
     let mut line = Line { wire, fault, decoder: Decoder::new(), sequence: 0, open: true, hung: false };
+    if fault == Fault::FormerLife {
+        line.transmit(last_words());
+        line.transmit(Event::Frame(Frame::Started(Cause::Fault)));
+    }
     let mut now_us = 0;
     while line.open {
         if let Some(due) = session.due_us() {
             now_us = due.max(now_us);
-            session.tick(now_us, &mut NoStopwatch, ring.as_mut());
+            session.tick(&mut Clock(now_us), ring.as_mut());
         } else {
             for byte in line.receive() {
                 if let Some(Ok(packet)) = decoder.push::<Command>(byte) {
@@ -84,9 +114,43 @@ pub(crate) fn serve(mut wire: impl Read + Write, fault: Fault) {
     }
 }
 
-struct NoStopwatch;
+/// A boot loader's 700 ms: noise without a frame in it comes out, and what comes in is lost.
+fn boot(wire: &mut (impl Read + Write)) {
+    let until = Instant::now() + Duration::from_millis(700);
+    let noise: Vec<u8> = (0..400_u32).map(|index| (index.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    wire.write_all(&noise).expect("rig listens");
+    let mut lost = [0; 1024];
+    while let Some(left) = until.checked_duration_since(Instant::now()).filter(|left| !left.is_zero()) {
+        thread::sleep(left.min(Duration::from_millis(100)));
+        // Rig says hello every 300 ms.
+        let _ = wire.read(&mut lost).expect("rig still asks");
+    }
+    // Firmware begins with a delimiter.
+    wire.write_all(&[0]).expect("rig still listens");
+}
 
-impl Stopwatch for NoStopwatch {
+/// What a device that panicked says last.
+fn last_words() -> Event {
+    let place = Some(Place { file: "firmware/src/tasks/simulate.rs".try_into().expect("short"), line: 42 });
+    let backtrace = [0x4038_1234, 0x4201_5678].into_iter().collect();
+    let message = "index 7 is out of bounds".try_into().expect("short");
+    Event::Frame(Frame::Fault(message::Fault {
+        kind: FaultKind::Panic,
+        uptime_us: 1_500_000,
+        message,
+        place,
+        backtrace,
+    }))
+}
+
+/// The virtual clock, us.
+struct Clock(u64);
+
+impl Stopwatch for Clock {
+    fn now_us(&mut self) -> u64 {
+        self.0
+    }
+
     fn count(&mut self) -> u32 {
         0
     }
@@ -155,5 +219,16 @@ impl<T: Read + Write> Line<T> {
         self.hung |= matches!(self.fault, Fault::Hang(last) if step == Some(last));
         // Rig may have closed the line, having heard enough.
         self.open &= sent.is_ok() && !matches!(self.fault, Fault::Death(last) if step == Some(last));
+        let said = match self.fault {
+            Fault::Panic(last) if step == Some(last) => last_words(),
+            Fault::Brownout(last) if step == Some(last) => Event::Frame(Frame::Started(Cause::Brownout)),
+            Fault::Logs(after) if step == Some(after) => {
+                let bytes = b"\x01\x2a\x7a\0".iter().copied().collect();
+                Event::Frame(Frame::Log { lost: 3, bytes })
+            }
+            _ => return,
+        };
+        self.fault = Fault::None;
+        self.transmit(said);
     }
 }

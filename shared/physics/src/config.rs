@@ -8,8 +8,12 @@ use crate::vec2::{Vec2, vec2};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Level {
     /// Plain impulses, partial position correction: the cheapest.
-    #[default]
     Flat,
+    /// Accumulated impulses, kept from step to step, and one pass from the ground up: stacks stand, heavy rests on light.
+    #[default]
+    Grounded,
+    /// Twice the passes, and the time of impact for every body.
+    Exact,
 }
 
 /// Constants of a world.
@@ -28,22 +32,37 @@ pub struct Config<S: Scalar> {
     /// Approach speed below which nothing bounces, px/s, 0..=1000. Default 0.5, and never less than what gravity adds in two
     /// steps: a resting body would bounce for ever.
     pub velocity_threshold: S::Real,
+    /// What is left of a velocity after each step, 0..=1, where damping is called for. Default 0.999.
+    pub damping: S::Real,
+    /// Largest speed, px/s, 1..=7620, where the cap is called for. Default 500.
+    pub speed_cap: S::Real,
+    /// A body is swept once a step moves it by more than this multiple of its half extent, 0..=16. Default 1: beyond that, thin
+    /// walls could be missed.
+    pub ccd_threshold: S::Real,
 }
 
 impl<S: Scalar> Default for Config<S> {
     fn default() -> Self {
-        Self {
-            level: Level::Flat,
-            gravity: vec2(S::Real::ZERO, S::real(px(200))),
-            velocity_iterations: 2,
-            bias: S::real(ratio(1, 5)),
-            slop: S::real(ratio(1, 50)),
-            velocity_threshold: S::real(ratio(1, 2)),
-        }
+        Self::at(Level::default())
     }
 }
 
 impl<S: Scalar> Config<S> {
+    /// The constants of a level.
+    pub fn at(level: Level) -> Self {
+        Self {
+            level,
+            gravity: vec2(S::Real::ZERO, S::real(px(200))),
+            velocity_iterations: if level == Level::Exact { 4 } else { 2 },
+            bias: S::real(if level == Level::Flat { ratio(1, 5) } else { ratio(2, 5) }),
+            slop: S::real(ratio(1, 50)),
+            velocity_threshold: S::real(ratio(1, 2)),
+            damping: S::real(ratio(999, 1000)),
+            speed_cap: S::real(px(500)),
+            ccd_threshold: S::ONE,
+        }
+    }
+
     /// Checks every field.
     ///
     /// # Errors
@@ -55,13 +74,9 @@ impl<S: Scalar> Config<S> {
         check(Field::VelocityIterations, iterations, 1, 16)?;
         check(Field::Bias, self.bias, 0, 1)?;
         check(Field::Slop, self.slop, 0, 8)?;
-        check(Field::VelocityThreshold, self.velocity_threshold, 0, 1000)
-    }
-
-    /// Approach speed below which nothing bounces.
-    pub(crate) fn bounce_threshold(&self) -> S::Speed {
-        let gravity = self.gravity.map(|g| S::acceleration(g).abs());
-        let two_steps = gravity.x + gravity.x + gravity.y + gravity.y;
-        S::speed(self.velocity_threshold).greater(two_steps)
+        check(Field::VelocityThreshold, self.velocity_threshold, 0, 1000)?;
+        check(Field::Damping, self.damping, 0, 1)?;
+        check(Field::SpeedCap, self.speed_cap, 1, 7620)?;
+        check(Field::CcdThreshold, self.ccd_threshold, 0, 16)
     }
 }

@@ -1,25 +1,121 @@
-//! Contacts between two bodies, and the fixed pool that holds a step's.
+//! Contacts between two bodies, and the fixed pool that holds them.
+
+mod parted;
 
 use crate::scalar::{Quantity, Scalar};
 use crate::vec2::{Vec2, vec2};
 
-/// Two bodies that touch or overlap. The first is rigid; the second is below it or static.
+/// Two bodies that touch, overlap, or may do so within the next steps. The first is rigid; the second is below it or immovable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact<S: Scalar> {
     pub(crate) a: u16,
     pub(crate) b: u16,
     /// From `a` to `b`.
     pub(crate) normal: Vec2<S::Unit>,
-    /// Overlap along the normal, px; 0 = touching.
-    pub(crate) penetration: S::Real,
-    /// Speed at which the bodies approached each other when they were found in contact, before this step's gravity.
-    pub(crate) approach: S::Speed,
-    /// Part of an impulse that moves `a`; the rest moves `b`.
-    pub(crate) share: S::Unit,
-    pub(crate) restitution: S::Real,
-    pub(crate) friction: S::Real,
-    /// Change of relative velocity that the solver applied along the normal (x) and the tangent (y).
+    /// Distance along the normal, px, as the speed that closes it in a step; negative = overlap.
+    pub(crate) gap: S::Speed,
+    /// Change of relative velocity that the solver applies along the normal (x) and along the normal turned by a quarter (y).
     pub(crate) impulse: Vec2<S::Speed>,
+    /// Part of an impulse that moves `a`, where something moves `b` as well: see [`own_share`](Self::own_share). The number of the
+    /// tile, where `b` is the tile map.
+    pub(crate) share: S::Unit,
+    /// In 1/32768.
+    pub(crate) friction: u16,
+    pub(crate) flags: Flags,
+}
+
+/// What kind of contact it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Flags(u16);
+
+impl Flags {
+    /// The normal is an axis: the two lowest bits say which.
+    pub(crate) const AXIS: Self = Self(1 << 2);
+    /// Nothing moves `b`.
+    pub(crate) const IMMOVABLE: Self = Self(1 << 3);
+    /// The masses are equal.
+    pub(crate) const EVEN: Self = Self(1 << 4);
+    /// Too far apart to touch in this step.
+    pub(crate) const FAR: Self = Self(1 << 5);
+    /// Restitution is above 0.
+    pub(crate) const BOUNCY: Self = Self(1 << 6);
+    /// Not looked at since it was found.
+    pub(crate) const NEW: Self = Self(1 << 7);
+    /// Found again by the broadphase.
+    pub(crate) const KEPT: Self = Self(1 << 8);
+    /// `b` bears `a`: it lies towards the ground, within 60 degrees.
+    pub(crate) const BEARS: Self = Self(1 << 9);
+    /// `b` connects `a` to the ground: it lies below, within 78 degrees.
+    pub(crate) const CONNECTS: Self = Self(1 << 10);
+    /// One of the bodies is a sensor: it is never solved, which [`FAR`](Self::FAR) sees to.
+    pub(crate) const SENSOR: Self = Self(1 << 11);
+    /// Touched when events were last noted.
+    pub(crate) const TOUCHING: Self = Self(1 << 12);
+    /// Touched the time before that.
+    pub(crate) const TOUCHED: Self = Self(1 << 13);
+    /// Has bounced in this step, or in the last one if it wasn't looked at since.
+    pub(crate) const BOUNCED: Self = Self(1 << 14);
+    /// `a` stands on the one-way platform `b`.
+    pub(crate) const LANDED: Self = Self(1 << 15);
+    /// `a` was let through the one-way platform `b`. Platforms are immovable, so masses that are equal say nothing there.
+    pub(crate) const DROPPED: Self = Self::EVEN;
+
+    #[inline]
+    pub(crate) const fn or(self, flags: Self) -> Self {
+        Self(self.0 | flags.0)
+    }
+    #[inline]
+    pub(crate) const fn has(self, flags: Self) -> bool {
+        self.0 & flags.0 != 0
+    }
+    #[inline]
+    pub(crate) fn set(&mut self, flags: Self) {
+        self.0 |= flags.0;
+    }
+    #[inline]
+    pub(crate) fn clear(&mut self, flags: Self) {
+        self.0 &= !flags.0;
+    }
+    /// An axis as a normal.
+    #[inline]
+    pub(crate) fn axis(self) -> Axis {
+        match self.0 & 3 {
+            0 => Axis::Down,
+            1 => Axis::Up,
+            2 => Axis::Right,
+            _ => Axis::Left,
+        }
+    }
+    /// Flags of a normal along an axis.
+    pub(crate) const fn along(axis: Axis) -> Self {
+        Self(Self::AXIS.0 | axis as u16)
+    }
+    /// Forgets what the geometry had said.
+    pub(crate) fn forget_geometry(&mut self) {
+        let geometry = Self::AXIS.or(Self::FAR).or(Self::NEW).or(Self::BEARS).or(Self::CONNECTS).or(Self::BOUNCED);
+        self.0 &= !(3 | geometry.0);
+    }
+}
+
+/// A normal without a slope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Axis {
+    Down,
+    Up,
+    Right,
+    Left,
+}
+
+impl Axis {
+    pub(crate) fn normal<S: Scalar>(self) -> Vec2<S::Unit> {
+        let zero = S::Unit::ZERO;
+        match self {
+            Self::Down => vec2(zero, S::UNIT),
+            Self::Up => vec2(zero, -S::UNIT),
+            Self::Right => vec2(S::UNIT, zero),
+            Self::Left => vec2(-S::UNIT, zero),
+        }
+    }
 }
 
 impl<S: Scalar> Contact<S> {
@@ -27,18 +123,51 @@ impl<S: Scalar> Contact<S> {
         a: 0,
         b: 0,
         normal: vec2(S::Unit::ZERO, S::Unit::ZERO),
-        penetration: S::Real::ZERO,
-        approach: S::Speed::ZERO,
-        share: S::Unit::ZERO,
-        restitution: S::Real::ZERO,
-        friction: S::Real::ZERO,
+        gap: S::Speed::ZERO,
         impulse: vec2(S::Speed::ZERO, S::Speed::ZERO),
+        share: S::Unit::ZERO,
+        friction: 0,
+        flags: Flags(0),
     };
 
-    /// Part of an impulse that moves `b`: nothing moves a static body.
+    /// Part of an impulse that moves `a`; the rest moves `b`.
     #[inline]
-    pub(crate) fn other_share(&self) -> S::Unit {
-        S::UNIT - self.share
+    pub(crate) fn own_share(&self) -> S::Unit {
+        if self.flags.has(Flags::IMMOVABLE) { S::UNIT } else { self.share }
+    }
+
+    /// Whether the bodies exactly touch, overlap, or press on each other.
+    #[inline]
+    pub(crate) fn touches(&self) -> bool {
+        !self.flags.has(Flags::FAR) && (self.gap <= S::Speed::ZERO || self.impulse.x > S::Speed::ZERO)
+    }
+
+    /// Components of a vector along the normal (x) and the normal turned by a quarter (y).
+    #[inline]
+    pub(crate) fn in_frame(&self, v: Vec2<S::Speed>) -> Vec2<S::Speed> {
+        if !self.flags.has(Flags::AXIS) {
+            return S::into_frame(v, self.normal);
+        }
+        match self.flags.axis() {
+            Axis::Down => vec2(v.y, -v.x),
+            Axis::Up => vec2(-v.y, v.x),
+            Axis::Right => v,
+            Axis::Left => -v,
+        }
+    }
+
+    /// The inverse of [`in_frame`](Self::in_frame).
+    #[inline]
+    pub(crate) fn out_of_frame(&self, v: Vec2<S::Speed>) -> Vec2<S::Speed> {
+        if !self.flags.has(Flags::AXIS) {
+            return S::out_of_frame(v, self.normal);
+        }
+        match self.flags.axis() {
+            Axis::Down => vec2(-v.y, v.x),
+            Axis::Up => vec2(v.y, -v.x),
+            Axis::Right => v,
+            Axis::Left => -v,
+        }
     }
 }
 
@@ -47,53 +176,48 @@ impl<S: Scalar> Contact<S> {
 pub(crate) struct Pool<'a, S: Scalar> {
     slots: &'a mut [Contact<S>],
     len: usize,
+    /// Contacts at the far end that are over, and whose end is being told.
+    aside: usize,
     /// Most contacts of any step.
     pub(crate) peak: u16,
     /// Contacts that found no room, over all steps.
     pub(crate) lost: u32,
+    /// Contacts that found no room when pairs were last looked for.
+    pub(crate) missing: u32,
 }
 
 impl<'a, S: Scalar> Pool<'a, S> {
     pub(crate) fn new(slots: &'a mut [Contact<S>]) -> Self {
-        Self { slots, len: 0, peak: 0, lost: 0 }
+        Self { slots, len: 0, aside: 0, peak: 0, lost: 0, missing: 0 }
     }
 
-    pub(crate) fn clear(&mut self) {
-        self.len = 0;
+    /// Becomes as another one of the same size is.
+    pub(crate) fn copy_from(&mut self, other: &Pool<'_, S>) {
+        let Pool { slots, len, aside, peak, lost, missing } = other;
+        self.slots.copy_from_slice(slots);
+        (self.len, self.aside) = (*len, *aside);
+        (self.peak, self.lost, self.missing) = (*peak, *lost, *missing);
     }
 
     /// Forgets the contacts and the counts.
     pub(crate) fn reset(&mut self) {
-        self.clear();
-        self.peak = 0;
-        self.lost = 0;
+        (self.len, self.aside, self.peak, self.lost, self.missing) = (0, 0, 0, 0, 0);
     }
 
     #[inline]
     pub(crate) fn push(&mut self, contact: Contact<S>) {
-        if let Some(slot) = self.slots.get_mut(self.len) {
-            *slot = contact;
+        if self.len + self.aside < self.slots.len() {
+            self.slots[self.len] = contact;
             self.len += 1;
         } else {
-            self.lost = self.lost.saturating_add(1);
+            self.missing += 1;
         }
     }
 
-    /// Forgets the contacts of a body, and keeps the others in their order.
-    pub(crate) fn forget(&mut self, body: u16) {
-        let mut kept = 0;
-        for place in 0..self.len {
-            let contact = self.slots[place];
-            if contact.a != body && contact.b != body {
-                self.slots[kept] = contact;
-                kept += 1;
-            }
-        }
-        self.len = kept;
-    }
-
-    pub(crate) fn note_peak(&mut self) {
-        self.peak = self.peak.max(self.len as u16);
+    /// Counts, at the end of a step.
+    pub(crate) fn count(&mut self) {
+        self.peak = self.peak.max((self.len + self.aside) as u16);
+        self.lost = self.lost.saturating_add(self.missing);
     }
 
     #[inline]

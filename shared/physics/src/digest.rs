@@ -48,8 +48,11 @@ pub fn digest<S: Scalar>(world: &World<'_, S>) -> u64 {
     for contact in world.pool.all() {
         hasher.word(u32::from(contact.a) << 16 | u32::from(contact.b));
         hasher.vector(contact.normal);
-        hasher.quantity(contact.penetration);
+        hasher.quantity(contact.gap);
         hasher.vector(contact.impulse);
+    }
+    for tiles in world.tiles.bytes().chunks(4) {
+        hasher.word(tiles.iter().fold(0, |word, &tile| word << 8 | u32::from(tile)));
     }
     hasher.finish()
 }

@@ -19,11 +19,47 @@ impl Effects {
     pub const BOUNCE: Self = Self(1 << 1);
     /// Coulomb friction.
     pub const FRICTION: Self = Self(1 << 2);
+    /// A factor on every velocity, each step.
+    pub const DAMPING: Self = Self(1 << 3);
+    /// A limit to every speed, below what the number format holds.
+    pub const SPEED_CAP: Self = Self(1 << 4);
+    /// Continuous collision detection: nothing passes through anything, however fast.
+    pub const CCD: Self = Self(1 << 5);
+    /// Bodies that notice others and don't block them.
+    pub const SENSORS: Self = Self(1 << 6);
+    /// Platforms that hold what lands on them from above and let pass what comes from elsewhere.
+    pub const ONE_WAY: Self = Self(1 << 7);
+    /// Bodies that the game moves.
+    pub const KINEMATIC: Self = Self(1 << 8);
+    /// A tile map that collides.
+    pub const TILES: Self = Self(1 << 9);
+    /// Bodies at rest cost nothing until something wakes them.
+    pub const SLEEP: Self = Self(1 << 10);
+    /// Begin, stay and end of every contact, for the game to read.
+    pub const EVENTS: Self = Self(1 << 11);
     /// Everything there is.
-    pub const ALL: Self = Self(0b111);
+    pub const ALL: Self = Self((1 << Self::NAMES.len()) - 1);
 
     /// Name of each effect, in the order of their bits.
-    const NAMES: [&'static str; 3] = ["gravity", "bounce", "friction"];
+    const NAMES: [&'static str; 12] = [
+        "gravity",
+        "bounce",
+        "friction",
+        "damping",
+        "speed cap",
+        "ccd",
+        "sensors",
+        "one-way",
+        "kinematic",
+        "tiles",
+        "sleep",
+        "events",
+    ];
+
+    /// The set of those bits; none if one of them stands for nothing.
+    pub const fn from_bits(bits: u16) -> Option<Self> {
+        if bits & !Self::ALL.0 == 0 { Some(Self(bits)) } else { None }
+    }
 
     /// The bits, for use as [`Only`]'s parameter.
     pub const fn bits(self) -> u16 {
@@ -82,12 +118,31 @@ impl Switches for Effects {
 }
 
 /// Decided when compiled: `Only::<{ Effects::GRAVITY.bits() }>`.
+///
+/// Bits that stand for no effect don't compile:
+/// ```compile_fail
+/// use flat_physics::{Effects, Only};
+/// let effects = Effects::from(Only::<0x8000>);
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Only<const BITS: u16>;
+
+impl<const BITS: u16> Only<BITS> {
+    const EFFECTS: Effects = match Effects::from_bits(BITS) {
+        Some(effects) => effects,
+        None => panic!("a bit of the set stands for no effect"),
+    };
+}
+
+impl<const BITS: u16> From<Only<BITS>> for Effects {
+    fn from(_: Only<BITS>) -> Self {
+        Only::<BITS>::EFFECTS
+    }
+}
 
 impl<const BITS: u16> Switches for Only<BITS> {
     #[inline]
     fn on(self, effect: Effects) -> bool {
-        Effects(BITS).contain(effect)
+        Self::EFFECTS.contain(effect)
     }
 }

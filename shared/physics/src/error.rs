@@ -2,8 +2,10 @@
 
 use core::fmt;
 
+use crate::effects::Effects;
 use crate::handle::Handle;
 use crate::scalar::{Scalar, px};
+use crate::tiles::TileError;
 
 /// Why a call was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,10 +15,36 @@ pub enum Error<S: Scalar> {
         /// Body capacity of the storage.
         capacity: u16,
     },
+    /// A world can become a copy of one of its own size only.
+    Size {
+        /// Its room for bodies and contacts.
+        own: (u16, u16),
+        /// The other's.
+        other: (u16, u16),
+    },
     /// The body is gone, or the handle is of another world.
     NoSuchBody {
         /// The handle.
         handle: Handle,
+    },
+    /// The body isn't kinematic: the game may not move it itself.
+    NotKinematic {
+        /// The handle.
+        handle: Handle,
+    },
+    /// The body isn't rigid: nothing pushes it.
+    NotRigid {
+        /// The handle.
+        handle: Handle,
+    },
+    /// Something calls for effects that the world was [declared](crate::World::declare) to do without.
+    Undeclared {
+        /// The slot of the body, or the one that it would get; none for the settings.
+        slot: Option<u16>,
+        /// What it calls for and is not declared.
+        missing: Effects,
+        /// What is.
+        declared: Effects,
     },
     /// A number is outside its range, or not a number.
     OutOfRange {
@@ -34,6 +62,14 @@ pub enum Error<S: Scalar> {
         /// What it was.
         value: S::Real,
     },
+    /// Something is wrong with tiles.
+    Tile(TileError),
+}
+
+impl<S: Scalar> From<TileError> for Error<S> {
+    fn from(error: TileError) -> Self {
+        Self::Tile(error)
+    }
 }
 
 /// A number that users set.
@@ -57,6 +93,18 @@ pub enum Field {
     Bias,
     Slop,
     VelocityThreshold,
+    Damping,
+    SpeedCap,
+    CcdThreshold,
+    ImpulseX,
+    ImpulseY,
+    ForceX,
+    ForceY,
+    MotionX,
+    MotionY,
+    UpX,
+    UpY,
+    Snap,
 }
 
 impl fmt::Display for Field {
@@ -79,6 +127,18 @@ impl fmt::Display for Field {
             Self::Bias => "bias",
             Self::Slop => "slop",
             Self::VelocityThreshold => "velocity threshold",
+            Self::Damping => "damping",
+            Self::SpeedCap => "speed cap",
+            Self::CcdThreshold => "ccd threshold",
+            Self::ImpulseX => "impulse.x",
+            Self::ImpulseY => "impulse.y",
+            Self::ForceX => "force.x",
+            Self::ForceY => "force.y",
+            Self::MotionX => "motion.x",
+            Self::MotionY => "motion.y",
+            Self::UpX => "up.x",
+            Self::UpY => "up.y",
+            Self::Snap => "snap",
         })
     }
 }
@@ -87,13 +147,28 @@ impl<S: Scalar> fmt::Display for Error<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Full { capacity } => write!(f, "all {capacity} body slots are taken"),
+            Self::Size { own, other } => write!(
+                f,
+                "a world for {} bodies and {} contacts can't become a copy of one for {} and {}",
+                own.0, own.1, other.0, other.1
+            ),
             Self::NoSuchBody { handle } => {
                 write!(f, "no body in slot {} of generation {}", handle.slot(), handle.generation())
+            }
+            Self::NotKinematic { handle } => write!(f, "the body in slot {} is not kinematic", handle.slot()),
+            Self::NotRigid { handle } => write!(f, "the body in slot {} is not rigid", handle.slot()),
+            Self::Undeclared { slot, missing, declared } => {
+                match slot {
+                    Some(slot) => write!(f, "the body in slot {slot} calls for {missing}")?,
+                    None => write!(f, "the settings call for {missing}")?,
+                }
+                write!(f, ", but only {declared} is declared: declare {missing} too, or do without")
             }
             Self::OutOfRange { field, value, range: (low, high) } => {
                 write!(f, "{field} is {value}, must be {low}..={high}")
             }
             Self::NotPositive { field, value } => write!(f, "{field} is {value}, must be above 0"),
+            Self::Tile(error) => error.fmt(f),
         }
     }
 }

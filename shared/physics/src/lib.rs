@@ -7,6 +7,9 @@
 //!
 //! Units: px and seconds; x points right, y down; a position is a shape's centre.
 //!
+//! Between steps a game reads [bodies](World::bodies), [contacts](World::contacts) and [events](World::events); spawns, removes,
+//! pushes and changes bodies; and saves or restores a whole world with [`copy_from`](World::copy_from).
+//!
 //! ```text
 //! time ─▶ scheduler ─▶ step ┌───────────┬────────────────────┬────────────────┬────────────────────┬─────────────────────┬────────┐
 //!                           │ detect    │ integrate_velocity │ solve_velocity │ integrate_position │ correct_penetration │ events │
@@ -36,12 +39,16 @@ pub mod config;
 pub mod digest;
 pub mod effects;
 pub mod error;
+pub mod geometry;
 pub mod handle;
+pub mod kinematics;
 pub mod material;
 pub mod pipeline;
+pub mod query;
 pub mod scalar;
 pub mod shape;
 pub mod step;
+pub mod tiles;
 pub mod vec2;
 pub mod world;
 
@@ -53,10 +60,11 @@ pub use digest::digest;
 pub use effects::{Effects, Only, Switches};
 pub use error::{Error, Field};
 pub use handle::Handle;
+pub use kinematics::{Collider, Collision, Footing, Slide, SlideOptions};
 pub use material::Material;
 pub use pipeline::scheduler::{Pace, Scheduler};
 pub use scalar::{Fixed, Quantity, Scalar};
 pub use shape::Shape;
 pub use step::{Stage, step};
 pub use vec2::{Vec2, vec2};
-pub use world::{BodyView, ContactView, Statistics, Storage, World};
+pub use world::{BodyView, ContactView, Event, Phase, Statistics, Storage, World};

@@ -2,10 +2,17 @@
 
 pub mod scheduler;
 
+pub(crate) mod bounce;
 pub(crate) mod broadphase;
+pub(crate) mod ccd;
 pub(crate) mod events;
+pub(crate) mod flat;
 pub(crate) mod grid;
+pub(crate) mod grounded;
 pub(crate) mod integrate;
 pub(crate) mod narrowphase;
+pub(crate) mod one_way;
+pub(crate) mod order;
+pub(crate) mod pairs;
 pub(crate) mod position;
-pub(crate) mod velocity;
+pub(crate) mod terrain;

@@ -13,6 +13,7 @@
 //! **Rounding.** To nearest, ties away from zero: a mirrored scene gives mirrored bits. Integrating a position keeps what
 //! rounding would lose in a remainder, so no velocity is too small to move a body.
 
+mod exact;
 mod fixed_point;
 mod float;
 
@@ -22,6 +23,7 @@ use core::ops::{Add, Neg, Sub};
 use ::fixed::types::I16F16;
 
 use crate::vec2::{Vec2, vec2};
+pub use exact::Exact;
 pub use fixed_point::Fixed;
 
 /// Largest coordinate of a body's centre, px. A body beyond it is disabled and reported.
@@ -78,6 +80,12 @@ pub trait Quantity:
         if other > self { other } else { self }
     }
 
+    /// Whether the magnitude is at most `limit`, which is 0 or more.
+    #[inline]
+    fn is_within(self, limit: Self) -> bool {
+        self <= limit && self >= -limit
+    }
+
     /// The value within +-`limit`.
     #[inline]
     #[must_use]
@@ -107,11 +115,13 @@ impl<T: Quantity> Vec2<T> {
 /// Operations name their rounding and what happens at the end of the range only where it differs from the module's rule.
 pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     /// What users speak in: px, px/s, px/s2, mass, coefficients.
-    type Real: Quantity;
+    type Real: Quantity + Exact<Self::Unit>;
     /// Velocity in px per step.
     type Speed: Quantity;
     /// Dimensionless, at most 1 in magnitude.
     type Unit: Quantity;
+    /// px2, exact.
+    type Area: Copy + PartialOrd;
 
     /// Name of the format.
     const NAME: &'static str;
@@ -121,6 +131,8 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     const UNIT: Self::Unit;
     /// [`SPEED_LIMIT`].
     const FASTEST: Self::Speed;
+    /// Largest impulse that a contact remembers, px per step; what exceeds it is left to the pass from the ground up.
+    const MOST_IMPULSE: Self::Speed;
 
     /// Converts a constant; exact for up to 24 significant bits.
     fn real(value: I16F16) -> Self::Real;
@@ -150,6 +162,64 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn length_scaled(length: Self::Real, factor: Self::Real) -> Self::Real;
     /// The part of a pair's impulse that moves the first body: `other / (own + other)`. Masses are positive.
     fn mass_share(own: Self::Real, other: Self::Real) -> Self::Unit;
+    /// `value / (mass rate)` for a positive mass: a force or an impulse as a change of velocity, held within [`SPEED_LIMIT`].
+    fn over_mass(value: Self::Real, mass: Self::Real, rate: u32) -> Self::Speed;
+
+    /// Whether a contact's visit fits 32 bits: velocities below 8 px/step and an impulse below 32. Faster bodies are rare, and take
+    /// the same formulas through the saturating operations.
+    fn is_tame(a: Vec2<Self::Speed>, b: Vec2<Self::Speed>, impulse: Self::Speed) -> bool;
+    /// Whether a change of velocity is too small to be worth making: below 2^-18 px/step (0.0002 px/s) along both axes.
+    fn is_negligible(change: Vec2<Self::Speed>) -> bool;
+    /// Components of a tame vector along a unit normal (x) and along the normal turned by a quarter (y). Each product is rounded
+    /// down to the format's resolution.
+    fn into_frame(vector: Vec2<Self::Speed>, normal: Vec2<Self::Unit>) -> Vec2<Self::Speed>;
+    /// The inverse of [`into_frame`](Self::into_frame), rounded likewise.
+    fn out_of_frame(vector: Vec2<Self::Speed>, normal: Vec2<Self::Unit>) -> Vec2<Self::Speed>;
+    /// A share of a tame speed, rounded down to twice the format's resolution.
+    fn tame_share(speed: Self::Speed, share: Self::Unit) -> Self::Speed;
+    /// Half of a speed, rounded down.
+    fn half_speed(speed: Self::Speed) -> Self::Speed;
+    /// The most that friction may do: a speed of 0 or more times a coefficient in 1/32768, rounded down.
+    fn coulomb(normal: Self::Speed, friction: u16) -> Self::Speed;
+    /// `speed / slope` for a slope of 1/2..=1, to 1e-4 and never more than that.
+    fn over_slope(speed: Self::Speed, slope: Self::Unit) -> Self::Speed;
+    /// A speed after (or before, where `accelerations` is negative) falling: `sqrt(speed^2 + 2 acceleration distance)`; 0 if that
+    /// is not real.
+    fn fallen(speed: Self::Speed, acceleration: Self::Speed, distance: Self::Speed) -> Self::Speed;
+    /// A length as the speed that covers it in a step, saturating.
+    fn per_step(length: Self::Real) -> Self::Speed;
+    /// What a speed covers in a step, rounded down.
+    fn in_a_step(speed: Self::Speed) -> Self::Real;
+    /// The constant `numerator / denominator` of at most 1.
+    fn unit_ratio(numerator: i8, denominator: i8) -> Self::Unit;
+    /// A whole number below 2^24 kept as a unit; [`number_of`](Self::number_of) gives it back.
+    fn unit_from_number(number: u32) -> Self::Unit;
+    /// The number that [`unit_from_number`](Self::unit_from_number) took.
+    fn number_of(unit: Self::Unit) -> u32;
+    /// A product of two lengths, for comparing with others.
+    fn area(a: Self::Real, b: Self::Real) -> Self::Area;
+    /// The mean of two speeds, rounded down.
+    fn mean(a: Self::Speed, b: Self::Speed) -> Self::Speed;
+    /// Part of a speed in another, larger one; both above 0.
+    fn per_speed(part: Self::Speed, whole: Self::Speed) -> Self::Unit;
+    /// What part of a motion, of 32767, is cut to leave `rest`, 0..=1; rounded up.
+    fn cut(rest: Self::Unit) -> i16;
+    /// A motion of which so many parts of 32767 are cut, rounded towards 0.
+    fn uncut(motion: Self::Speed, cut: i16) -> Self::Speed;
+    /// Mean of so many velocities, rounded down.
+    fn mean_velocity(velocities: impl Iterator<Item = Vec2<Self::Speed>>, count: u32) -> Vec2<Self::Speed>;
+    /// Mean of so many lengths of at most 127 px, rounded up to 1/256 px.
+    fn mean_length(lengths: impl Iterator<Item = Self::Real>, count: u32) -> Self::Real;
+    /// A velocity with its magnitude held at `cap`, to 1e-7 of it.
+    fn capped(velocity: Vec2<Self::Speed>, cap: Self::Speed) -> Vec2<Self::Speed>;
+    /// A length in 1/4096 px, of at most 16 px.
+    fn pushes(count: i32) -> Self::Speed;
+    /// A length in whole 1/4096 px, rounded towards 0, held at 4 px.
+    fn whole_pushes(length: Self::Speed) -> i16;
+    /// A value in 1/65 536, rounded towards 0.
+    fn in_65536ths(value: Self::Real) -> i64;
+    /// A coefficient of 0..=1 in 1/32768.
+    fn coefficient(value: Self::Real) -> u16;
 
     /// Whether a vector is no longer than `radius`, exactly.
     fn within(offset: Vec2<Self::Real>, radius: Self::Real) -> bool;

@@ -2,8 +2,9 @@
 
 use core::fmt;
 
+use crate::config::Level;
 use crate::effects::Switches;
-use crate::pipeline::{broadphase, events, integrate, position, velocity};
+use crate::pipeline::{broadphase, ccd, events, flat, grounded, integrate, narrowphase, position};
 use crate::scalar::Scalar;
 use crate::world::World;
 
@@ -49,12 +50,21 @@ impl Stage {
     #[inline]
     pub fn run<S: Scalar>(self, world: &mut World<'_, S>, switches: impl Switches) {
         match self {
-            Self::Detect => broadphase::detect(world),
+            Self::Detect => {
+                broadphase::update(world, switches);
+                narrowphase::refresh(world, switches);
+            }
             Self::IntegrateVelocity => integrate::velocities(world, switches),
-            Self::SolveVelocity => velocity::solve(world, switches),
-            Self::IntegratePosition => integrate::positions(world),
+            Self::SolveVelocity => match world.config.level {
+                Level::Flat => flat::solve(world, switches),
+                Level::Grounded | Level::Exact => grounded::solve(world, switches),
+            },
+            Self::IntegratePosition => {
+                ccd::limit(world, switches);
+                integrate::positions(world);
+            }
             Self::CorrectPenetration => position::correct(world),
-            Self::Events => events::publish(world),
+            Self::Events => events::publish(world, switches),
         }
     }
 

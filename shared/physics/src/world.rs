@@ -1,26 +1,44 @@
 //! The world: bodies, contacts and settings, on storage that somebody else owns.
 
-use crate::body::{Body, BodyDef, Profile};
+mod copy;
+mod declare;
+mod events;
+mod push;
+mod set;
+mod terrain;
+mod view;
+
+use crate::body::{Body, BodyDef, Marks, Profile};
 use crate::config::Config;
-use crate::contact::{Contact, Pool};
+use crate::contact::{Contact, Flags, Pool};
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::Handle;
 use crate::pipeline::broadphase::Layers;
 use crate::scalar::{Quantity, Scalar};
-use crate::vec2::Vec2;
+use crate::tiles::TileMap;
+use crate::vec2::{Vec2, vec2};
 
-/// Room for a world: at most `BODIES` bodies and `CONTACTS` contacts a step. All zeros when new, so a static one costs no flash.
+pub use events::{Event, Phase};
+pub(crate) use terrain::NO_TERRAIN;
+pub use terrain::Terrain;
+pub use view::{BodyView, ContactView, Statistics};
+
+/// Room for a world: at most `BODIES` bodies, `CONTACTS` contacts a step and a map of `TILES` tiles. All zeros when new, so a static
+/// one costs no flash.
 #[derive(Debug)]
-pub struct Storage<S: Scalar, const BODIES: usize, const CONTACTS: usize> {
+pub struct Storage<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize = 0> {
     bodies: [Body<S>; BODIES],
     profiles: [Profile<S>; BODIES],
     contacts: [Contact<S>; CONTACTS],
-    /// Scratch lists of the broadphase.
-    lists: [[u16; BODIES]; 6],
+    /// Velocities at the start of a step.
+    before: [Vec2<S::Speed>; BODIES],
+    /// Lists of the broadphase.
+    lists: [[u16; BODIES]; 4],
+    tiles: [u8; TILES],
 }
 
-impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Storage<S, BODIES, CONTACTS> {
+impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> Storage<S, BODIES, CONTACTS, TILES> {
     /// Empty storage.
     pub const fn new() -> Self {
         const { assert!(BODIES < u16::MAX as usize && CONTACTS <= u16::MAX as usize, "slots are 16-bit numbers") };
@@ -28,13 +46,15 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Storage<S, BODIES, C
             bodies: [Body::EMPTY; BODIES],
             profiles: [Profile::EMPTY; BODIES],
             contacts: [Contact::EMPTY; CONTACTS],
-            lists: [[0; BODIES]; 6],
+            before: [vec2(S::Speed::ZERO, S::Speed::ZERO); BODIES],
+            lists: [[0; BODIES]; 4],
+            tiles: [0; TILES],
         }
     }
 
     /// An empty world with default settings on this storage; whatever an earlier one held is gone.
     pub fn world(&mut self) -> World<'_, S> {
-        let [dynamics, links, candidates, statics, entries @ ..] = &mut self.lists;
+        let [order, links, groups, entries] = &mut self.lists;
         let mut world = World {
             config: Config::default(),
             gravity: Vec2::default(),
@@ -42,12 +62,20 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Storage<S, BODIES, C
             bodies: &mut self.bodies,
             profiles: &mut self.profiles,
             pool: Pool::new(&mut self.contacts),
-            layers: Layers::new(dynamics, links, candidates, statics, entries.as_flattened_mut()),
+            before: &mut self.before,
+            layers: Layers::new(order, links, groups, entries),
+            tiles: TileMap::new(&mut self.tiles),
+            terrain: NO_TERRAIN,
+            travel: S::Speed::ZERO,
+            fastest: S::Speed::ZERO,
+            speed_cap: S::Speed::ZERO,
             used: 0,
             free: 0,
             count: 0,
             called_for: Effects::NONE,
+            declared: None,
             steps: 0,
+            told_at: None,
             escaped: 0,
             saturations: 0,
         };
@@ -56,59 +84,12 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Storage<S, BODIES, C
     }
 }
 
-impl<S: Scalar, const BODIES: usize, const CONTACTS: usize> Default for Storage<S, BODIES, CONTACTS> {
+impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> Default
+    for Storage<S, BODIES, CONTACTS, TILES>
+{
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// Counters of a world since it was last empty.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Statistics {
-    /// Steps done.
-    pub steps: u32,
-    /// Bodies present.
-    pub bodies: u16,
-    /// Contacts of the last step.
-    pub contacts: u16,
-    /// Most contacts of any step: what to size the storage by.
-    pub contacts_peak: u16,
-    /// Contacts that found no room, over all steps.
-    pub contacts_lost: u32,
-    /// Bodies that left the coordinate range and were disabled.
-    pub escaped: u16,
-    /// Velocity changes that were held at the speed limit, over all bodies and steps.
-    pub saturations: u32,
-}
-
-/// A body's state, as read between steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyView<S: Scalar> {
-    /// Its handle.
-    pub handle: Handle,
-    /// Centre, px.
-    pub position: Vec2<S::Real>,
-    /// Velocity, px per step; [`Scalar::px_per_second`] converts.
-    pub velocity: Vec2<S::Speed>,
-    /// What rounding the position has carried over to the next step: see [`Scalar::advance`].
-    pub remainder: Vec2<i16>,
-    /// False once it has left the coordinate range.
-    pub enabled: bool,
-    /// What the definition said.
-    pub user_data: u32,
-}
-
-/// A contact of the last step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactView<S: Scalar> {
-    /// The two bodies; the first is rigid.
-    pub bodies: [Handle; 2],
-    /// Unit normal from the first to the second.
-    pub normal: Vec2<S::Unit>,
-    /// Overlap along the normal when it was detected, px.
-    pub penetration: S::Real,
-    /// Change of relative velocity that the solver applied, px per step: along the normal (x) and the tangent (y).
-    pub impulse: Vec2<S::Speed>,
 }
 
 /// Bodies, contacts and settings of one world.
@@ -117,24 +98,39 @@ pub struct World<'a, S: Scalar> {
     pub(crate) config: Config<S>,
     /// Velocity that gravity adds in a step.
     pub(crate) gravity: Vec2<S::Speed>,
+    /// Approach speed below which nothing bounces, as far as the settings say.
     pub(crate) bounce_threshold: S::Speed,
     pub(crate) bodies: &'a mut [Body<S>],
     pub(crate) profiles: &'a mut [Profile<S>],
     pub(crate) pool: Pool<'a, S>,
+    /// Velocities at the start of the step, by slot.
+    pub(crate) before: &'a mut [Vec2<S::Speed>],
     pub(crate) layers: Layers<'a>,
+    pub(crate) tiles: TileMap<'a>,
+    /// The slot that stands for the tile map, with its surface and layers.
+    pub(crate) terrain: u16,
+    /// How far any body has moved since pairs were last looked for, at most.
+    pub(crate) travel: S::Speed,
+    /// Largest velocity component after the last step.
+    pub(crate) fastest: S::Speed,
+    pub(crate) speed_cap: S::Speed,
     /// Slots below this have held a body since the world was last empty.
     used: u16,
     /// First free slot below `used`, plus 1; 0 = none.
     free: u16,
     count: u16,
+    /// What the bodies have called for since the world was last empty.
     called_for: Effects,
+    declared: Option<Effects>,
     pub(crate) steps: u32,
+    /// The step after which events were last noted.
+    pub(crate) told_at: Option<u32>,
     pub(crate) escaped: u16,
     pub(crate) saturations: u32,
 }
 
 impl<S: Scalar> World<'_, S> {
-    /// Removes all bodies, resets all counters and settings.
+    /// Removes all bodies, resets all counters, settings and declarations. No contact's end is told.
     pub fn clear(&mut self) {
         for (body, profile) in self.bodies.iter_mut().zip(self.profiles.iter_mut()) {
             if body.status.is_taken() {
@@ -143,10 +139,11 @@ impl<S: Scalar> World<'_, S> {
             }
         }
         self.pool.reset();
-        self.layers.dynamics_changed();
-        self.layers.statics_changed();
+        self.tiles.clear();
+        self.terrain = NO_TERRAIN;
+        self.layers.changed(true);
         (self.used, self.free, self.count) = (0, 0, 0);
-        self.called_for = Effects::NONE;
+        (self.called_for, self.declared, self.told_at) = (Effects::NONE, None, None);
         (self.steps, self.escaped, self.saturations) = (0, 0, 0);
         self.apply(Config::default());
     }
@@ -154,7 +151,8 @@ impl<S: Scalar> World<'_, S> {
     /// Adds a body.
     ///
     /// # Errors
-    /// [`Error::Full`] if all slots are taken; what [`BodyDef::validate`] finds. Nothing changes then.
+    /// What [`BodyDef::validate`] finds; [`Error::Full`] if all slots are taken; [`Error::Undeclared`] if the body calls for an
+    /// effect that was not [declared](Self::declare). Nothing changes then.
     pub fn spawn(&mut self, def: &BodyDef<S>) -> Result<Handle, Error<S>> {
         def.validate()?;
         let slot = if self.free != 0 {
@@ -164,6 +162,7 @@ impl<S: Scalar> World<'_, S> {
         } else {
             return Err(Error::Full { capacity: self.capacity() });
         };
+        self.call_for(slot, def.called_for())?;
         let profile = &mut self.profiles[usize::from(slot)];
         if self.free != 0 {
             self.free = profile.next_free;
@@ -174,17 +173,21 @@ impl<S: Scalar> World<'_, S> {
         let body = Body::new(def);
         self.bodies[usize::from(slot)] = body;
         self.count += 1;
-        self.called_for = self.called_for | def.called_for();
         self.changed(body.status.is_static());
         Ok(self.handle(slot))
     }
 
-    /// Removes a body.
+    /// Removes a body. The next step tells the end of its contacts.
     ///
     /// # Errors
     /// [`Error::NoSuchBody`] if it is gone already.
     pub fn despawn(&mut self, handle: Handle) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
+        if handle.slot == self.terrain {
+            self.tiles.clear();
+            self.terrain = NO_TERRAIN;
+        }
+        self.part_contacts(handle.slot);
         let was_static = self.bodies[slot].status.is_static();
         self.bodies[slot] = Body::EMPTY;
         let profile = &mut self.profiles[slot];
@@ -192,43 +195,8 @@ impl<S: Scalar> World<'_, S> {
         profile.next_free = self.free;
         self.free = handle.slot + 1;
         self.count -= 1;
-        self.pool.forget(handle.slot);
         self.changed(was_static);
         Ok(())
-    }
-
-    /// A body's state.
-    ///
-    /// # Errors
-    /// [`Error::NoSuchBody`] if it is gone.
-    pub fn body(&self, handle: Handle) -> Result<BodyView<S>, Error<S>> {
-        let slot = self.slot(handle)?;
-        Ok(self.view(slot as u16, &self.bodies[slot]))
-    }
-
-    /// All bodies, by ascending slot.
-    pub fn bodies(&self) -> impl Iterator<Item = BodyView<S>> {
-        self.bodies_from(0)
-    }
-
-    /// The bodies in a slot and those after it, by ascending slot: for reading them in parts.
-    pub fn bodies_from(&self, slot: u16) -> impl Iterator<Item = BodyView<S>> {
-        self.slots_from(slot).map(|(slot, body)| self.view(slot, body))
-    }
-
-    /// The contacts of the last step, in the order in which the solver took them.
-    pub fn contacts(&self) -> impl Iterator<Item = ContactView<S>> {
-        self.contacts_from(0)
-    }
-
-    /// The contacts of the last step without so many first ones: for reading them in parts.
-    pub fn contacts_from(&self, place: u16) -> impl Iterator<Item = ContactView<S>> {
-        self.pool.all().iter().skip(usize::from(place)).map(|contact| ContactView {
-            bodies: [self.handle(contact.a), self.handle(contact.b)],
-            normal: contact.normal,
-            penetration: contact.penetration,
-            impulse: contact.impulse,
-        })
     }
 
     /// Settings in force.
@@ -239,30 +207,13 @@ impl<S: Scalar> World<'_, S> {
     /// Replaces the settings.
     ///
     /// # Errors
-    /// What [`Config::validate`] finds; the old settings then stay.
+    /// What [`Config::validate`] finds; [`Error::Undeclared`] if they call for an effect that was not
+    /// [declared](Self::declare). The old settings then stay.
     pub fn configure(&mut self, config: Config<S>) -> Result<(), Error<S>> {
         config.validate()?;
+        self.check_declared(None, config.called_for())?;
         self.apply(config);
         Ok(())
-    }
-
-    /// The effects without which the bodies and settings would not do what they say.
-    pub fn called_for(&self) -> Effects {
-        let gravity = self.gravity != Vec2::default();
-        self.called_for | if gravity { Effects::GRAVITY } else { Effects::NONE }
-    }
-
-    /// Counters since the world was last empty.
-    pub fn statistics(&self) -> Statistics {
-        Statistics {
-            steps: self.steps,
-            bodies: self.count,
-            contacts: self.pool.all().len() as u16,
-            contacts_peak: self.pool.peak,
-            contacts_lost: self.pool.lost,
-            escaped: self.escaped,
-            saturations: self.saturations,
-        }
     }
 
     /// Most bodies.
@@ -287,46 +238,64 @@ impl<S: Scalar> World<'_, S> {
         Ok(())
     }
 
-    /// The slots that hold a body, from one on.
-    pub(crate) fn slots_from(&self, slot: u16) -> impl Iterator<Item = (u16, &Body<S>)> {
-        let bodies = self.bodies.iter().skip(usize::from(slot));
-        (slot..self.used).zip(bodies).filter(|(_, body)| body.status.is_taken())
-    }
-
     fn apply(&mut self, config: Config<S>) {
         self.gravity = config.gravity.map(S::acceleration);
-        self.bounce_threshold = config.bounce_threshold();
+        self.bounce_threshold = S::speed(config.velocity_threshold);
+        self.speed_cap = S::speed(config.speed_cap);
         self.config = config;
     }
 
+    /// Pairs are looked for in the next step; the static layer is rebuilt if something static changed.
     fn changed(&mut self, is_static: bool) {
-        if is_static {
-            self.layers.statics_changed();
+        self.layers.changed(is_static);
+    }
+
+    /// A body was moved by so much, other than by its velocity.
+    pub(crate) fn moved(&mut self, slot: u16, travel: Vec2<S::Real>) {
+        self.disturb(slot);
+        if self.bodies[usize::from(slot)].status.is_static() {
+            self.changed(true);
         } else {
-            self.layers.dynamics_changed();
+            let farthest = travel.x.abs().greater(travel.y.abs());
+            self.travel = self.travel.saturating_add(S::per_step(farthest));
         }
     }
 
-    fn handle(&self, slot: u16) -> Handle {
+    /// Something has happened to a body: it wakes, and its contacts are looked at again.
+    fn disturb(&mut self, slot: u16) {
+        let body = &mut self.bodies[usize::from(slot)];
+        body.marks.clear(Marks::ASLEEP);
+        if body.status.is_static() {
+            self.contacts_of(slot).for_each(|contact| contact.flags.set(Flags::NEW));
+        } else {
+            body.marks.set(Marks::MOVED);
+        }
+    }
+
+    /// A body's contacts, as far as they last.
+    fn contacts_of(&mut self, slot: u16) -> impl Iterator<Item = &mut Contact<S>> {
+        self.pool.all_mut().iter_mut().filter(move |contact| contact.is_of(slot))
+    }
+
+    /// Ends a body's contacts: what meets it in the next step begins anew.
+    fn part_contacts(&mut self, slot: u16) {
+        let Self { pool, profiles, .. } = self;
+        for contact in pool.all_mut() {
+            if contact.is_of(slot) {
+                contact.part(profiles);
+            }
+        }
+    }
+
+    pub(crate) fn handle(&self, slot: u16) -> Handle {
         Handle { slot, generation: self.profiles[usize::from(slot)].generation }
     }
 
-    fn slot(&self, handle: Handle) -> Result<usize, Error<S>> {
+    pub(crate) fn slot(&self, handle: Handle) -> Result<usize, Error<S>> {
         let slot = usize::from(handle.slot);
         let present = handle.slot < self.used
             && self.bodies[slot].status.is_taken()
             && self.profiles[slot].generation == handle.generation;
         if present { Ok(slot) } else { Err(Error::NoSuchBody { handle }) }
-    }
-
-    fn view(&self, slot: u16, body: &Body<S>) -> BodyView<S> {
-        BodyView {
-            handle: self.handle(slot),
-            position: body.position,
-            velocity: body.velocity,
-            remainder: body.remainder,
-            enabled: body.status.is_enabled(),
-            user_data: self.profiles[usize::from(slot)].user_data,
-        }
     }
 }

@@ -111,8 +111,8 @@ proptest! {
                     continue;
                 }
                 let (depth, pair) = (first.depth(second), (a as u16, b as u16));
-                // f64 is exact for boxes; round shapes may touch to within its rounding.
-                if depth.abs() > 1e-9 || (!first.circle && !second.circle) {
+                // Boxes are exact. The distance of round shapes is rounded to the last place, 2^-16 px.
+                if depth.abs() > 1.6e-5 || (!first.circle && !second.circle) {
                     prop_assert_eq!(found.contains(&pair), depth >= 0.0, "{:?}: depth {}", pair, depth);
                 }
             }
@@ -120,7 +120,7 @@ proptest! {
         for contact in world.contacts() {
             let [a, b] = contact.bodies.map(|body| &seen[usize::from(body.slot())]);
             let (depth, got) = (a.depth(b), contact.penetration.to_num::<f64>());
-            prop_assert!((got - depth).abs() < 4e-5 + depth * 1e-8, "penetration {got}, exact {depth}");
+            prop_assert!((got - depth.min(100.0)).abs() < 4e-5 + depth * 1e-8, "penetration {got}, exact {depth}");
             let n = [contact.normal.x.to_num::<f64>(), contact.normal.y.to_num::<f64>()];
             prop_assert!((n[0].hypot(n[1]) - 1.0).abs() < 2e-8, "normal {n:?}");
             // The normal leads from the first to the second: parting along it by the depth leaves nothing but rounding.

@@ -1,6 +1,9 @@
 //! Time becomes steps, exactly.
 
-use flat_physics::{Pace, Scheduler};
+use core::num::NonZero;
+
+use flat_physics::scalar::px;
+use flat_physics::{BodyDef, Effects, Fixed, Pace, Scheduler, Shape, Storage, digest, step, vec2};
 use proptest::prelude::*;
 
 /// Feeds the chunks and then runs until nothing is due.
@@ -46,9 +49,67 @@ fn one_step_at_a_time_until_more_than_two_and_a_half_behind() {
 
 #[test]
 fn a_desktop_may_take_two_steps_at_a_time() {
-    let mut scheduler = Scheduler::new(Pace { normal: 2, ..Pace::DEFAULT });
-    scheduler.elapse(34_000);
-    assert_eq!(scheduler.take(), 2);
+    let take = |us| {
+        let mut scheduler = Scheduler::new(Pace::DESKTOP);
+        scheduler.elapse(us);
+        scheduler.take()
+    };
+    assert_eq!([take(17_000), take(34_000), take(49_000), take(3_000_000)], [1, 2, 2, 4]);
+}
+
+#[test]
+fn every_pace_is_kept() {
+    let pace = |normal, catch_up| Pace {
+        normal: NonZero::new(normal).unwrap(),
+        catch_up: NonZero::new(catch_up).unwrap(),
+        ..Pace::DEFAULT
+    };
+    for (pace, us, steps) in [(pace(1, 3), 1_000_000, 3), (pace(3, 1), 1_000_000, 1), (pace(3, 1), 41_000, 2)] {
+        let mut scheduler = Scheduler::new(pace);
+        scheduler.elapse(us);
+        assert_eq!(scheduler.take(), steps, "{pace:?}");
+    }
+}
+
+#[test]
+fn what_exceeds_the_limit_is_discarded_and_counted() {
+    let mut scheduler = Scheduler::new(Pace { limit: NonZero::new(6), ..Pace::DEFAULT });
+    scheduler.elapse(100_000);
+    assert_eq!((scheduler.backlog_us(), scheduler.discarded_us()), (100_000, 0));
+    scheduler.elapse(50_000);
+    assert_eq!((scheduler.backlog_us(), scheduler.discarded_us()), (100_000, 50_000));
+    assert_eq!((scheduler.take(), scheduler.take(), scheduler.take(), scheduler.take()), (4, 1, 1, 0));
+    scheduler.elapse(1_000_000);
+    assert_eq!((scheduler.backlog_us(), scheduler.discarded_us()), (100_000, 950_000));
+}
+
+#[test]
+fn a_world_ends_in_the_same_state_however_its_seconds_are_fed() {
+    let run = |pace: Pace, chunks: &[u64]| {
+        let mut storage = Storage::<Fixed, 8, 32>::new();
+        let mut world = storage.world();
+        let shape = Shape::Box { half: vec2(px(100), px(5)) };
+        world.spawn(&BodyDef::fixed(shape, vec2(px(0), px(100)))).unwrap();
+        for n in 0..6 {
+            world.spawn(&BodyDef::rigid(Shape::Circle { radius: px(5) }, vec2(px(n * 7), px(n * -9)))).unwrap();
+        }
+        let mut scheduler = Scheduler::new(pace);
+        let mut chunks = chunks.iter();
+        while world.statistics().steps < 180 {
+            scheduler.elapse(chunks.next().copied().unwrap_or(0));
+            (0..scheduler.take()).for_each(|_| step(&mut world, Effects::ALL));
+        }
+        (digest(&world), world.statistics().steps, scheduler.backlog_us())
+    };
+    let whole = run(Pace::DEFAULT, &[3_000_000]);
+    assert_eq!((whole.1, whole.2), (180, 0));
+    let mut random = vec![7_000, 61_000, 1, 250_000, 16_667, 33_333, 400, 120_000];
+    random.push(3_000_000 - random.iter().sum::<u64>());
+    for chunks in [vec![16_000; 188], vec![33_000; 91], vec![100_000; 30], random] {
+        let (end, steps, _) = run(Pace::DEFAULT, &chunks);
+        assert_eq!((end, steps), (whole.0, 180), "{} chunks", chunks.len());
+        assert_eq!(run(Pace::DESKTOP, &chunks).0, whole.0, "{} chunks", chunks.len());
+    }
 }
 
 #[test]

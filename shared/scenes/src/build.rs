@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use flat_physics::{Effects, Error, Scalar, World};
+use flat_physics::{Config, Error, Level, Scalar, World};
 
 use crate::parameters::Parameters;
 use crate::scene::{Capacity, Scene};
@@ -17,19 +17,22 @@ pub enum BuildError<S: Scalar> {
         /// What the world has.
         available: Capacity,
     },
+    /// The settings were refused. The world is empty.
+    Config {
+        /// Why.
+        error: Error<S>,
+    },
+    /// The tiles were refused. The world is empty.
+    Tiles {
+        /// Why.
+        error: Error<S>,
+    },
     /// A body was refused. The world is empty.
     Body {
         /// Its number.
         number: u16,
         /// Why.
         error: Error<S>,
-    },
-    /// A body needs an effect that the scene does not call for. The world is empty.
-    Effect {
-        /// Its number.
-        number: u16,
-        /// The effect.
-        missing: Effects,
     },
 }
 
@@ -41,10 +44,9 @@ impl<S: Scalar> fmt::Display for BuildError<S> {
                 "needs {} bodies and {} contacts, there is room for {} and {}",
                 needed.bodies, needed.contacts, available.bodies, available.contacts
             ),
+            Self::Config { error } => write!(f, "settings: {error}"),
+            Self::Tiles { error } => write!(f, "tiles: {error}"),
             Self::Body { number, error } => write!(f, "body {number}: {error}"),
-            Self::Effect { number, missing } => {
-                write!(f, "body {number} needs {missing}, which the scene does not call for")
-            }
         }
     }
 }
@@ -52,30 +54,45 @@ impl<S: Scalar> fmt::Display for BuildError<S> {
 impl<S: Scalar> core::error::Error for BuildError<S> {}
 
 impl Scene {
-    /// Replaces whatever is in the world by this scene.
+    /// Replaces whatever is in the world by this scene, with a level's settings and the scene's gravity.
     ///
     /// # Errors
     /// [`BuildError::Capacity`] before anything changes; the others leave the world empty.
-    pub fn build<S: Scalar>(&self, parameters: &Parameters, world: &mut World<'_, S>) -> Result<(), BuildError<S>> {
-        let needed = (self.capacity)(parameters);
+    pub fn build<S: Scalar>(
+        &self,
+        parameters: &Parameters,
+        level: Level,
+        world: &mut World<'_, S>,
+    ) -> Result<(), BuildError<S>> {
+        let needed = self.capacity(parameters, level);
         let available = Capacity { bodies: world.capacity(), contacts: world.contact_capacity() };
         if needed.bodies > available.bodies || needed.contacts > available.contacts {
             return Err(BuildError::Capacity { needed, available });
         }
         world.clear();
+        let built = self.fill(parameters, level, world);
+        if built.is_err() {
+            world.clear();
+        }
+        built
+    }
+
+    fn fill<S: Scalar>(
+        &self,
+        parameters: &Parameters,
+        level: Level,
+        world: &mut World<'_, S>,
+    ) -> Result<(), BuildError<S>> {
+        let gravity = self.gravity(parameters).map(S::real);
+        let configured = world.configure(Config { gravity, ..Config::at(level) });
+        configured.and_then(|()| world.declare(self.effects)).map_err(|error| BuildError::Config { error })?;
         for number in self.spawn_order(parameters) {
             let def = self.body(parameters, number).convert();
-            let missing = def.called_for().without(self.effects);
-            let refused = if missing == Effects::NONE {
-                world.spawn(&def).err().map(|error| BuildError::Body { number, error })
-            } else {
-                Some(BuildError::Effect { number, missing })
-            };
-            if let Some(error) = refused {
-                world.clear();
-                return Err(error);
-            }
+            world.spawn(&def).map_err(|error| BuildError::Body { number, error })?;
         }
-        Ok(())
+        match &self.tiles {
+            None => Ok(()),
+            Some(tiles) => tiles.lay(parameters, world).map_err(|error| BuildError::Tiles { error }),
+        }
     }
 }

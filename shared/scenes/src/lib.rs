@@ -10,17 +10,57 @@
 mod build;
 mod catalogue;
 mod parameters;
+mod perturb;
 mod promise;
 mod scene;
+mod script;
+mod tiles;
 
 pub use build::BuildError;
-pub use parameters::{Order, ParameterError, Parameters};
-pub use promise::Promise;
+pub use parameters::{Mix, Order, ParameterError, Parameters, Takes, Turns, Variant};
+pub use perturb::Battery;
+pub use promise::{Promise, Shortfall};
 pub use scene::{Capacity, Promises, Scene};
+pub use script::Cue;
 
 /// All built-in scenes.
-pub static SCENES: &[Scene] =
-    &[catalogue::drop::SCENE, catalogue::bounce::SCENE, catalogue::ball_pit::SCENE, catalogue::crate_columns::SCENE];
+pub static SCENES: &[Scene] = &[
+    catalogue::drop::SCENE,
+    catalogue::bounce::SCENE,
+    catalogue::ball_pit::BALL_PIT,
+    catalogue::ball_pit::BALL_PIT_OFFSET,
+    catalogue::ball_pit::BALL_PIT_MIXED,
+    catalogue::crate_columns::SCENE,
+    catalogue::projectile::SCENE,
+    catalogue::drift::SCENE,
+    catalogue::terminal::SCENE,
+    catalogue::cradle::CRADLE,
+    catalogue::cradle::CHAINS,
+    catalogue::slide::SLIDE,
+    catalogue::slide::PIGGYBACK,
+    catalogue::stack::STACK,
+    catalogue::stack::HEAVY_TOP,
+    catalogue::stack::ANVIL,
+    catalogue::stack::FEATHER,
+    catalogue::pyramid::SCENE,
+    catalogue::anvil_drop::SCENE,
+    catalogue::overlap::COINCIDENT,
+    catalogue::overlap::OVERLAPPING,
+    catalogue::heap::HEAP,
+    catalogue::heap::ZIGZAG,
+    catalogue::tight::WEDGE,
+    catalogue::tight::TWO_PIXELS,
+    catalogue::tight::TINY_AND_HUGE,
+    catalogue::tight::SQUEEZED,
+    catalogue::churn::SCENE,
+    catalogue::kinematic::PUSH,
+    catalogue::kinematic::LIFT,
+    catalogue::kinematic::CRUSH,
+    catalogue::shots::SCENE,
+    catalogue::soak::SCENE,
+    catalogue::tile_level::TILE_LEVEL,
+    catalogue::tile_level::SEAMS,
+];
 
 /// The scene of that name.
 pub fn find(name: &str) -> Option<&'static Scene> {

@@ -2,14 +2,18 @@
 
 use core::ops::RangeInclusive;
 
-use flat_physics::{BodyDef, Effects, Fixed, Level};
+use fixed::types::I16F16;
+use flat_physics::scalar::px;
+use flat_physics::{BodyDef, Effects, Fixed, Level, Vec2, vec2};
 use heapless::Vec;
 
-use crate::parameters::{Order, ParameterError, Parameters};
-use crate::promise::Promise;
+use crate::parameters::{Order, ParameterError, Parameters, Takes, Variant};
+use crate::promise::{Promise, Shortfall};
+use crate::script::Script;
+use crate::tiles::Tiles;
 
 /// Promises of one scene.
-pub type Promises = Vec<Promise, 6>;
+pub type Promises = Vec<Promise, 12>;
 
 /// A scene with a name.
 #[derive(Debug)]
@@ -22,14 +26,29 @@ pub struct Scene {
     pub effects: Effects,
     /// Steps of a usual run.
     pub steps: u32,
+    /// Steps of a run in the battery; none = the usual.
+    pub long: Option<u32>,
     /// Parameters of a usual run.
     pub defaults: Parameters,
     /// Rigid bodies that it can do.
     pub bodies: RangeInclusive<u16>,
-    /// Bodies and contacts that it needs room for.
-    pub capacity: fn(&Parameters) -> Capacity,
+    /// Other counts with an answer of their own.
+    pub sizes: &'static [u16],
+    /// Gravity, px/s2 downwards.
+    pub gravity: i16,
+    /// Departures that it can take.
+    pub takes: Takes,
+    /// Whether somebody may play.
+    pub player: bool,
+    pub(crate) tiles: Option<Tiles>,
+    /// All bodies, walls and floors included.
+    pub(crate) total: fn(&Parameters) -> u16,
+    pub(crate) contacts: fn(&Parameters, Level) -> u16,
     pub(crate) body: fn(&Parameters, u16) -> BodyDef<Fixed>,
-    pub(crate) promises: fn(&Parameters, Level) -> Promises,
+    pub(crate) script: Option<Script>,
+    pub(crate) promises: fn(&Parameters) -> Promises,
+    /// Promises that are not kept yet.
+    pub shortfalls: &'static [Shortfall],
 }
 
 /// Room in a world.
@@ -54,24 +73,48 @@ impl Scene {
     ) -> Result<Parameters, ParameterError> {
         let bodies = bodies.unwrap_or(self.defaults.bodies);
         if !self.bodies.contains(&bodies) {
-            return Err(ParameterError { scene: self.name, bodies, range: self.bodies.clone() });
+            return Err(ParameterError::Bodies { scene: self.name, bodies, range: self.bodies.clone() });
         }
-        Ok(Parameters { bodies, seed: seed.unwrap_or(self.defaults.seed), order })
+        Ok(Parameters { bodies, seed: seed.unwrap_or(self.defaults.seed), order, variant: self.defaults.variant })
+    }
+
+    /// The same parameters with departures.
+    ///
+    /// # Errors
+    /// A departure that the scene doesn't take.
+    pub fn vary(&self, parameters: Parameters, variant: Variant) -> Result<Parameters, ParameterError> {
+        match self.takes.refused(&variant) {
+            Some(why) => Err(ParameterError::Variant { scene: self.name, why }),
+            None => Ok(Parameters { variant, ..parameters }),
+        }
+    }
+
+    /// The room that it needs at a level of accuracy.
+    pub fn capacity(&self, parameters: &Parameters, level: Level) -> Capacity {
+        // A map of tiles takes a slot.
+        let bodies = (self.total)(parameters) + u16::from(self.tiles.is_some());
+        Capacity { bodies, contacts: (self.contacts)(parameters, level) }
     }
 
     /// The numbers of the bodies in the order of their insertion. In an empty world the n-th gets slot n.
     pub fn spawn_order(&self, parameters: &Parameters) -> impl Iterator<Item = u16> + use<> {
-        let (parameters, total) = (*parameters, (self.capacity)(parameters).bodies);
+        let (parameters, total) = (*parameters, (self.total)(parameters));
         (0..total).map(move |place| parameters.nth(place, total))
     }
 
-    /// The body of that number.
+    /// The body of that number, in the world's coordinates. Its user data is its number.
     pub fn body(&self, parameters: &Parameters, number: u16) -> BodyDef<Fixed> {
-        (self.body)(parameters, number)
+        let def = parameters.variant.body((self.body)(parameters, number));
+        BodyDef { user_data: number.into(), ..def }
     }
 
-    /// What must hold at a level of accuracy.
-    pub fn promises(&self, parameters: &Parameters, level: Level) -> Promises {
-        (self.promises)(parameters, level)
+    /// The world's gravity, px/s2.
+    pub fn gravity(&self, parameters: &Parameters) -> Vec2<I16F16> {
+        parameters.variant.turn(vec2(px(0), px(parameters.variant.gravity.unwrap_or(self.gravity))))
+    }
+
+    /// What must hold, in the scene's own coordinates: those in which it is neither turned nor shifted.
+    pub fn promises(&self, parameters: &Parameters) -> Promises {
+        (self.promises)(parameters)
     }
 }

@@ -1,14 +1,17 @@
 //! A world with a scene in it, whatever its number format.
 
-use core::fmt::Write;
-
-use flat_physics::{BodyView, Config, Effects, Fixed, Handle, Level, Quantity, Scalar, Stage, Statistics, World};
-use flat_scenes::{Parameters, Scene};
+use flat_physics::{
+    BodyView, Collider, Config, Effects, Event, Fixed, Handle, Level, Quantity, Scalar, Stage, Statistics, World,
+};
+use flat_scenes::{Cue, Parameters, Scene};
 use flat_wire::message::{
-    BODIES_PER_FRAME, BodyPosition, BodyState, CONTACTS_PER_FRAME, Capacity, ContactState, POSITIONS_PER_FRAME, Reason,
-    ScalarKind,
+    BODIES_PER_FRAME, BodyPosition, BodyState, CONTACTS_PER_FRAME, Capacity, ContactEvent, ContactState,
+    EVENTS_PER_FRAME, Measures, POSITIONS_PER_FRAME, Phase, Reason, ScalarKind,
 };
 use heapless::Vec;
+
+use crate::cut::cut;
+use crate::measures;
 
 /// One world a number format.
 #[derive(Debug)]
@@ -56,7 +59,15 @@ impl<'a> Worlds<'a> {
 pub(crate) trait AnyWorld {
     fn capacity(&self) -> (u16, u16);
     /// Builds a scene, or says why not.
-    fn load(&mut self, scene: &Scene, parameters: &Parameters, level: Level) -> Result<(), Reason>;
+    fn load(
+        &mut self,
+        scene: &Scene,
+        parameters: &Parameters,
+        level: Level,
+        iterations: Option<u8>,
+    ) -> Result<(), Reason>;
+    /// Does what the scene does before a step; false if the world refused any of it.
+    fn direct(&mut self, scene: &Scene, parameters: &Parameters, cue: Cue) -> bool;
     fn run(&mut self, stage: Stage, effects: Effects);
     fn digest(&self) -> u64;
     fn statistics(&self) -> Statistics;
@@ -66,6 +77,11 @@ pub(crate) trait AnyWorld {
     fn bodies(&self, from: u16) -> Vec<BodyState, BODIES_PER_FRAME>;
     fn positions(&self, from: u16) -> Vec<BodyPosition, POSITIONS_PER_FRAME>;
     fn contacts(&self, from: u16) -> Vec<ContactState, CONTACTS_PER_FRAME>;
+    /// The last step's events, without so many first ones.
+    fn events(&self, from: u16) -> Vec<ContactEvent, EVENTS_PER_FRAME>;
+    /// How many events the last step had.
+    fn event_count(&self) -> u16;
+    fn measures(&self) -> Measures;
 }
 
 impl<S: Scalar> AnyWorld for World<'_, S> {
@@ -73,11 +89,24 @@ impl<S: Scalar> AnyWorld for World<'_, S> {
         (World::capacity(self), self.contact_capacity())
     }
 
-    fn load(&mut self, scene: &Scene, parameters: &Parameters, level: Level) -> Result<(), Reason> {
-        scene.build(parameters, self).map_err(|error| reason(format_args!("{}: {error}", scene.name))).and_then(|()| {
-            let config = Config { level, ..*self.config() };
-            self.configure(config).map_err(|error| reason(format_args!("{}: {error}", scene.name)))
-        })
+    fn load(
+        &mut self,
+        scene: &Scene,
+        parameters: &Parameters,
+        level: Level,
+        iterations: Option<u8>,
+    ) -> Result<(), Reason> {
+        let refused = |error: &dyn core::fmt::Display| reason(format_args!("{}: {error}", scene.name));
+        scene.build(parameters, level, self).map_err(|error| refused(&error))?;
+        if let Some(velocity_iterations) = iterations {
+            let config = Config { velocity_iterations, ..*self.config() };
+            self.configure(config).map_err(|error| refused(&error))?;
+        }
+        Ok(())
+    }
+
+    fn direct(&mut self, scene: &Scene, parameters: &Parameters, cue: Cue) -> bool {
+        scene.direct(parameters, cue, self).is_ok()
     }
 
     fn run(&mut self, stage: Stage, effects: Effects) {
@@ -129,6 +158,37 @@ impl<S: Scalar> AnyWorld for World<'_, S> {
             })
             .collect()
     }
+
+    fn events(&self, from: u16) -> Vec<ContactEvent, EVENTS_PER_FRAME> {
+        World::events(self).skip(usize::from(from)).take(EVENTS_PER_FRAME).map(|told| event(&told)).collect()
+    }
+
+    fn event_count(&self) -> u16 {
+        World::events(self).count() as u16
+    }
+
+    fn measures(&self) -> Measures {
+        measures::of(self)
+    }
+}
+
+fn event<S: Scalar>(event: &Event<S>) -> ContactEvent {
+    let (other, tile) = match event.other {
+        Collider::Body(handle) => (handle.slot(), None),
+        Collider::Tile(tile) => (u16::MAX, Some([tile.column, tile.row])),
+    };
+    ContactEvent {
+        phase: match event.phase {
+            flat_physics::Phase::Begin => Phase::Begin,
+            flat_physics::Phase::Stay => Phase::Stay,
+            flat_physics::Phase::End => Phase::End,
+        },
+        bodies: [event.body.slot(), other],
+        tile,
+        sensor: event.sensor,
+        normal: [event.normal.x.bits(), event.normal.y.bits()],
+        impulse: event.impulse.x.bits(),
+    }
 }
 
 /// The first `N` bodies from a slot on.
@@ -140,17 +200,7 @@ fn listed<S: Scalar, T, const N: usize>(
     world.bodies_from(from).take(N).map(entry).collect()
 }
 
-/// A text for the host; what doesn't fit is cut off.
+/// Why the host is refused.
 pub(crate) fn reason(text: core::fmt::Arguments<'_>) -> Reason {
-    let mut reason = Reason::new();
-    let _ = Cut(&mut reason).write_fmt(text);
-    reason
-}
-
-struct Cut<'a>(&'a mut Reason);
-
-impl Write for Cut<'_> {
-    fn write_str(&mut self, text: &str) -> core::fmt::Result {
-        text.chars().try_for_each(|character| self.0.push(character).map_err(|_| core::fmt::Error))
-    }
+    cut(text)
 }

@@ -15,8 +15,10 @@ pub struct Identity {
     pub counter: Counter,
 }
 
-/// A free-running counter for stage times; wraps.
+/// The device's clock, and a free-running counter for stage times.
 pub trait Stopwatch {
-    /// The count now, in the unit of [`Identity::counter`].
+    /// Device time, us.
+    fn now_us(&mut self) -> u64;
+    /// The count now, in the unit of [`Identity::counter`]; wraps.
     fn count(&mut self) -> u32;
 }

@@ -14,14 +14,22 @@
 #![deny(missing_docs)]
 
 mod any_world;
+mod backtrace;
+mod cut;
 mod identity;
+mod logs;
+mod measures;
+mod punctuality;
 mod ring;
 mod session;
 mod sink;
 mod stream;
 
 pub use any_world::Worlds;
+pub use backtrace::return_addresses;
+pub use cut::cut;
 pub use identity::{Identity, Stopwatch};
+pub use logs::Logs;
 pub use ring::{REPLY_RESERVE, Ring, STEP_RESERVE};
 pub use session::{LinkCounters, Session};
-pub use sink::{Class, Sink};
+pub use sink::{Class, Sink, encode};

@@ -30,6 +30,8 @@ pub struct Ring<const N: usize> {
     start: usize,
     /// Bytes waiting, at most `N`.
     waiting: usize,
+    /// Number of the next frame.
+    sequence: u16,
 }
 
 impl<const N: usize> Ring<N> {
@@ -47,7 +49,7 @@ impl<const N: usize> Ring<N> {
                 "the ring must hold MAX_FRAME + STEP_RESERVE + REPLY_RESERVE bytes"
             );
         }
-        Self { bytes: [0; N], start: 0, waiting: 0 }
+        Self { bytes: [0; N], start: 0, waiting: 0, sequence: 0 }
     }
 
     /// Whether nothing waits.
@@ -89,6 +91,10 @@ impl<const N: usize> Ring<N> {
 }
 
 impl<const N: usize> Sink for Ring<N> {
+    fn sequence(&self) -> u16 {
+        self.sequence
+    }
+
     fn push(&mut self, class: Class, frame: &[u8]) -> bool {
         if frame.len() > self.room(class) {
             return false;
@@ -98,7 +104,12 @@ impl<const N: usize> Sink for Ring<N> {
         self.bytes[end..][..upper.len()].copy_from_slice(upper);
         self.bytes[..lower.len()].copy_from_slice(lower);
         self.waiting += frame.len();
+        self.skip();
         true
+    }
+
+    fn skip(&mut self) {
+        self.sequence = self.sequence.wrapping_add(1);
     }
 }
 

@@ -1,14 +1,17 @@
 //! The session: which scene runs, how far it is, what the host was promised.
 
 use flat_physics::{Effects, Level, Pace, Scheduler, Stage};
+use flat_scenes::{Cue, Mix, Parameters, Scene, Variant};
 use flat_wire::PROTOCOL_VERSION;
 use flat_wire::message::{
     self, Command, Detail, Event, Flip, Frame, Hello, Loaded, Order, Point, Reply, STAGES, ScalarKind, SceneRequest,
-    Status, StreamRequest,
+    Stack, Status, StreamRequest,
 };
 
 use crate::any_world::{Worlds, reason};
+use crate::cut::cut;
 use crate::identity::{Identity, Stopwatch};
+use crate::punctuality::Punctuality;
 use crate::sink::{Class, Sender, Sink};
 use crate::stream::{Dropped, Emission, Record};
 
@@ -37,15 +40,26 @@ pub struct Session<'a> {
     sender: Sender,
     dropped: Dropped,
     link: LinkCounters,
+    stack: Stack,
+    /// Of the run under way, else of the last one.
+    punctuality: Punctuality,
+    /// Whether a host has ever asked anything; until then there are demos.
+    hosted: bool,
+    /// Number of the next demo.
+    demo: usize,
 }
 
 /// The scene that is loaded.
 #[derive(Clone, Copy, Debug)]
 struct Loadout {
+    scene: &'static Scene,
+    parameters: Parameters,
     scalar: ScalarKind,
     effects: Effects,
     /// Steps done.
     step: u32,
+    /// What the player holds down.
+    buttons: u8,
 }
 
 /// A run under way.
@@ -59,6 +73,8 @@ struct Run {
     owed: u8,
     /// Next stage of the step under way.
     stage: usize,
+    /// Counts between two readings of the stopwatch with nothing in between, once measured.
+    reading: Option<u32>,
     record: Record,
     /// Frames that must go out before the run goes on.
     emission: Option<Emission>,
@@ -82,11 +98,39 @@ impl<'a> Session<'a> {
             sender: Sender::new(),
             dropped: Dropped::default(),
             link: LinkCounters::default(),
+            stack: Stack::default(),
+            punctuality: Punctuality::default(),
+            hosted: false,
+            demo: 0,
+        }
+    }
+
+    /// Runs the next scene of the catalogue, at its defaults and in silence, if none runs and no host has ever spoken.
+    pub fn demonstrate(&mut self, now_us: u64) {
+        if self.hosted || self.run.is_some() {
+            return;
+        }
+        // A scene that there is no room for is passed over.
+        for _ in flat_scenes::SCENES {
+            let scene = &flat_scenes::SCENES[self.demo % flat_scenes::SCENES.len()];
+            self.demo += 1;
+            let request = SceneRequest { name: cut(format_args!("{}", scene.name)), ..SceneRequest::default() };
+            if self.load(&request).and_then(|_| self.start(scene.steps, now_us)).is_ok() {
+                return;
+            }
+        }
+    }
+
+    /// Ends the demos: the host finds a device that has done nothing yet.
+    fn welcome(&mut self) {
+        if !self.hosted {
+            (self.hosted, self.scene, self.run, self.punctuality) = (true, None, None, Punctuality::default());
         }
     }
 
     /// Carries out one command at device time `now_us` and answers it.
     pub fn handle(&mut self, now_us: u64, sequence: u16, command: &Command, sink: &mut dyn Sink) {
+        self.welcome();
         let reply = match command {
             Command::Hello { .. } => Ok(Reply::Hello(self.hello())),
             Command::Load(request) => self.load(request).map(Reply::Loaded),
@@ -107,18 +151,26 @@ impl<'a> Session<'a> {
                 self.watch = Some(*point);
                 Reply::Done
             }),
+            Command::Input { buttons } => self.input(*buttons).map(|()| Reply::Done),
             Command::Flip(flip) => self.check_flip(flip).map(|()| {
                 self.flip = Some(*flip);
                 Reply::Done
             }),
+            Command::Provoke(_) => Err(reason(format_args!("this build doesn't fail on request; a test build does"))),
         };
         self.reply(sequence, reply.unwrap_or_else(Reply::Refused), sink);
     }
 
     /// Answers a frame that arrived intact but isn't in this device's table of commands.
     pub fn refuse_unknown(&mut self, sequence: u16, sink: &mut dyn Sink) {
+        self.welcome();
         let text = reason(format_args!("unknown command; this device speaks protocol {PROTOCOL_VERSION}"));
         self.reply(sequence, Reply::Refused(text), sink);
+    }
+
+    /// Answers a command that was carried out elsewhere.
+    pub fn acknowledge(&mut self, sequence: u16, sink: &mut dyn Sink) {
+        self.reply(sequence, Reply::Done, sink);
     }
 
     /// Takes note of the receiver's counters, for [`Status`].
@@ -126,12 +178,18 @@ impl<'a> Session<'a> {
         self.link = counters;
     }
 
-    /// Runs the steps that are due at device time `now_us` and sends what the host wants of them.
+    /// Takes note of how deep the stack was, for [`Status`].
+    pub fn note_stack(&mut self, stack: Stack) {
+        self.stack = stack;
+    }
+
+    /// Runs the steps that are due by the stopwatch's time and sends what the host wants of them.
     #[inline(never)] // so that firmware can place it, by its name, in memory without wait states
-    pub fn tick(&mut self, now_us: u64, stopwatch: &mut dyn Stopwatch, sink: &mut dyn Sink) {
+    pub fn tick(&mut self, stopwatch: &mut dyn Stopwatch, sink: &mut dyn Sink) {
         let Some(run) = &mut self.run else {
             return;
         };
+        let now_us = stopwatch.now_us();
         run.scheduler.elapse(now_us.saturating_sub(run.known_us));
         run.known_us = run.known_us.max(now_us);
         if run.owed == 0 {
@@ -165,7 +223,7 @@ impl<'a> Session<'a> {
             run.emission = None;
         }
         if run.remaining == 0 {
-            run.held = !finish(scene.step, run, self.dropped, &mut self.sender, sink);
+            run.held = self.hosted && !finish(scene.step, run, self.dropped, &mut self.sender, sink);
             if !run.held {
                 self.run = None;
             }
@@ -176,9 +234,26 @@ impl<'a> Session<'a> {
         }
 
         let (step, stage) = (scene.step + 1, Stage::ALL[run.stage]);
+        if run.stage == 0 {
+            self.punctuality.begin(stopwatch.now_us());
+        }
+        if run.stage == 0 {
+            let cue = Cue { step, buttons: scene.buttons };
+            if !world.direct(scene.scene, &scene.parameters, cue) {
+                // The host is promised a number of steps: an early end tells it that the scene has come to grief.
+                run.remaining = 1;
+            }
+        }
+        // What reading the counter takes is no part of a stage.
+        let reading = *run.reading.get_or_insert_with(|| {
+            let before = stopwatch.count();
+            stopwatch.count().wrapping_sub(before)
+        });
         let start = stopwatch.count();
-        world.run(stage, scene.effects);
-        run.record.counts[run.stage] = stopwatch.count().wrapping_sub(start);
+        // Telling events changes nothing but what is told.
+        let told = if self.stream.events { Effects::EVENTS } else { Effects::NONE };
+        world.run(stage, scene.effects | told);
+        run.record.counts[run.stage] = stopwatch.count().wrapping_sub(start).saturating_sub(reading);
         let here = Point { step, stage: run.stage as u8 };
         if let Some(flip) = self.flip.take_if(|flip| flip.point == here) {
             world.flip(flip.body, flip.bit);
@@ -191,8 +266,11 @@ impl<'a> Session<'a> {
         if ends_step {
             (run.stage, run.owed, run.remaining) = (0, run.owed - 1, run.remaining - 1);
             scene.step = step;
+            self.punctuality.end(stopwatch.now_us());
+            run.record.punctuality = self.punctuality;
             run.record.backlog_us = run.scheduler.backlog_us();
-            run.emission = Some(Emission::of_step(step, if watched { everything(self.stream) } else { self.stream }));
+            let request = if watched { everything(self.stream) } else { self.stream };
+            run.emission = self.hosted.then(|| Emission::of_step(step, request));
         } else {
             run.stage += 1;
             if watched {
@@ -205,8 +283,8 @@ impl<'a> Session<'a> {
     fn hello(&self) -> Hello {
         Hello {
             protocol: PROTOCOL_VERSION,
-            build: cut(self.identity.build),
-            board: cut(self.identity.board),
+            build: cut(format_args!("{}", self.identity.build)),
+            board: cut(format_args!("{}", self.identity.board)),
             clock_hz: self.identity.clock_hz,
             counter: self.identity.counter,
             capacities: self.worlds.capacities(),
@@ -223,16 +301,37 @@ impl<'a> Session<'a> {
         };
         let level = match request.level {
             message::Level::Flat => Level::Flat,
+            message::Level::Grounded => Level::Grounded,
+            message::Level::Exact => Level::Exact,
         };
-        let parameters =
-            scene.parameters(request.bodies, request.seed, order).map_err(|error| reason(format_args!("{error}")))?;
+        let parameters = scene
+            .parameters(request.bodies, request.seed, order)
+            .and_then(|parameters| scene.vary(parameters, variant(&request.variant)))
+            .map_err(|error| reason(format_args!("{error}")))?;
         let world = self.worlds.of_mut(request.scalar);
-        world.load(scene, &parameters, level)?;
+        let effects = match request.effects {
+            None => scene.effects,
+            Some(bits) => {
+                Effects::from_bits(bits).ok_or_else(|| reason(format_args!("effects {bits:#x} hold an unknown bit")))?
+            }
+        };
+        world.load(scene, &parameters, level, request.iterations)?;
         let loaded = Loaded { bodies: world.statistics().bodies, digest: world.digest() };
-        self.scene = Some(Loadout { scalar: request.scalar, effects: scene.effects, step: 0 });
+        self.scene = Some(Loadout { scene, parameters, scalar: request.scalar, effects, step: 0, buttons: 0 });
         (self.run, self.watch, self.flip) = (None, None, None);
-        self.dropped = Dropped::default();
+        (self.dropped, self.punctuality) = (Dropped::default(), Punctuality::default());
         Ok(loaded)
+    }
+
+    fn input(&mut self, buttons: u8) -> Result<(), message::Reason> {
+        match &mut self.scene {
+            Some(scene) if scene.scene.player => {
+                scene.buttons = buttons;
+                Ok(())
+            }
+            Some(scene) => Err(reason(format_args!("{} has no player", scene.scene.name))),
+            None => Err(reason(format_args!("no scene is loaded"))),
+        }
     }
 
     fn start(&mut self, steps: u32, now_us: u64) -> Result<Reply, message::Reason> {
@@ -243,12 +342,14 @@ impl<'a> Session<'a> {
         if steps == 0 || scene.step.checked_add(steps).is_none() {
             return Err(reason(format_args!("steps is {steps}, must be 1..={}", u32::MAX - scene.step)));
         }
+        self.punctuality = Punctuality::new(now_us);
         self.run = Some(Run {
             remaining: steps,
             scheduler: Scheduler::new(Pace::DEFAULT),
             known_us: now_us,
             owed: 0,
             stage: 0,
+            reading: None,
             record: Record::new(self.worlds.of(scene.scalar).digest()),
             emission: None,
             held: false,
@@ -258,6 +359,7 @@ impl<'a> Session<'a> {
     }
 
     fn status(&self) -> Status {
+        let worst = self.punctuality.worst();
         Status {
             step: self.scene.map_or(0, |scene| scene.step),
             remaining: self.run.as_ref().map_or(0, |run| run.remaining),
@@ -266,6 +368,10 @@ impl<'a> Session<'a> {
             damaged: self.link.damaged,
             dropped_detail: self.dropped.detail,
             dropped_steps: self.dropped.steps,
+            late_us: worst.late_us,
+            took_us: worst.took_us,
+            overruns: self.punctuality.overruns(),
+            stack: self.stack,
         }
     }
 
@@ -299,10 +405,21 @@ impl<'a> Session<'a> {
     fn reply(&mut self, to: u16, reply: Reply, sink: &mut dyn Sink) {
         if !self.sender.offer(Class::Reply, &Event::Reply { to, reply }, sink) {
             // The host asked faster than it reads; it will ask again.
-            self.sender.skip();
+            sink.skip();
             self.dropped.steps = self.dropped.steps.saturating_add(1);
         }
     }
+}
+
+fn variant(variant: &message::Variant) -> Variant {
+    let message::Variant { mirrored, transposed, phase, shift, gravity, gap, mix } = *variant;
+    let mix = match mix {
+        message::Mix::None => Mix::None,
+        message::Mix::Sizes => Mix::Sizes,
+        message::Mix::Masses => Mix::Masses,
+        message::Mix::Shapes => Mix::Shapes,
+    };
+    Variant { mirrored, transposed, phase, shift, gravity, gap, mix }
 }
 
 /// Sends the end of a run; false if there was no room yet.
@@ -320,10 +437,4 @@ fn finish(step: u32, run: &Run, dropped: Dropped, sender: &mut Sender, sink: &mu
 /// The host's wishes with all bodies and contacts on top.
 fn everything(request: StreamRequest) -> StreamRequest {
     StreamRequest { detail: Detail::Full, every: 1, contacts: true, ..request }
-}
-
-/// As much of a text as fits.
-fn cut<const N: usize>(text: &str) -> heapless::String<N> {
-    let end = text.floor_char_boundary(N);
-    heapless::String::try_from(&text[..end]).unwrap_or_default()
 }

@@ -4,6 +4,7 @@ use flat_physics::Stage;
 use flat_wire::message::{Detail, Event, Flow, Frame, Point, STAGES, Statistics, StreamRequest};
 
 use crate::any_world::AnyWorld;
+use crate::punctuality::Punctuality;
 use crate::sink::{Class, Sender, Sink};
 
 /// Measurements of the step under way.
@@ -13,6 +14,7 @@ pub(crate) struct Record {
     pub(crate) digests: [u64; STAGES],
     pub(crate) counts: [u32; STAGES],
     pub(crate) backlog_us: u64,
+    pub(crate) punctuality: Punctuality,
 }
 
 impl Record {
@@ -53,10 +55,14 @@ enum Part {
     Step,
     StageDigests,
     StageTimes,
+    Timing,
     /// From this slot on.
     Bodies(u16),
     /// From this place on.
     Contacts(u16),
+    /// From this one on.
+    Events(u16),
+    Measures,
     Statistics,
     End,
 }
@@ -90,7 +96,7 @@ impl Emission {
                 if self.request.flow == Flow::Hold {
                     return false;
                 }
-                sender.skip();
+                sink.skip();
                 let count = if class == Class::Detail { &mut dropped.detail } else { &mut dropped.steps };
                 *count = count.saturating_add(1);
             }
@@ -115,17 +121,29 @@ impl Emission {
                 Part::StageDigests => Part::StageTimes,
                 Part::StageTimes if self.request.stage_times => {
                     let counts = record.counts;
-                    return Some((Class::Detail, Frame::StageTimes { step, counts }, Part::Bodies(0)));
+                    return Some((Class::Detail, Frame::StageTimes { step, counts }, Part::Timing));
                 }
-                Part::StageTimes => Part::Bodies(0),
+                Part::StageTimes => Part::Timing,
+                Part::Timing if self.request.timing => {
+                    return Some((Class::Detail, record.punctuality.frame(step), Part::Bodies(0)));
+                }
+                Part::Timing => Part::Bodies(0),
                 Part::Bodies(from) => match self.state(world, from) {
                     Some((frame, next)) => return Some((Class::Detail, frame, Part::Bodies(next))),
                     None => Part::Contacts(0),
                 },
                 Part::Contacts(from) => match self.contacts(world, from) {
                     Some((frame, next)) => return Some((Class::Detail, frame, Part::Contacts(next))),
-                    None => Part::Statistics,
+                    None => Part::Events(0),
                 },
+                Part::Events(from) => match self.events(world, from) {
+                    Some((frame, next)) => return Some((Class::Detail, frame, Part::Events(next))),
+                    None => Part::Measures,
+                },
+                Part::Measures if self.ends_step && every(self.request.measures_every, step) => {
+                    return Some((Class::Detail, Frame::Measures(world.measures()), Part::Statistics));
+                }
+                Part::Measures => Part::Statistics,
                 Part::Statistics if self.ends_step && every(self.request.statistics_every, step) => {
                     let statistics = statistics(world, record, dropped);
                     return Some((Class::Step, Frame::Statistics(statistics), Part::End));
@@ -167,6 +185,18 @@ impl Emission {
         }
         let next = from + contacts.len() as u16;
         Some((Frame::Contacts { at: self.at, total: world.statistics().contacts, contacts }, next))
+    }
+
+    fn events(&self, world: &dyn AnyWorld, from: u16) -> Option<(Frame, u16)> {
+        if !self.request.events || !self.ends_step {
+            return None;
+        }
+        let events = world.events(from);
+        if events.is_empty() {
+            return None;
+        }
+        let next = from + events.len() as u16;
+        Some((Frame::Events { step: self.at.step, total: world.event_count(), events }, next))
     }
 }
 

@@ -3,18 +3,29 @@
 use flat_physics::{Fixed, Storage};
 use flat_session::{Class, Identity, LinkCounters, Ring, Session, Sink, Stopwatch, Worlds};
 use flat_wire::message::{
-    Command, Counter, Detail, Event, Flip, Flow, Frame, Level, Order, Point, Reply, ScalarKind, SceneRequest, Status,
-    StreamRequest,
+    Command, Counter, Detail, Event, Flip, Flow, Frame, Level, Mishap, Order, Point, Reply, ScalarKind, SceneRequest,
+    Stack, Status, StreamRequest, Variant,
 };
 use flat_wire::{Decoder, PROTOCOL_VERSION};
 
-/// Counts its own readings.
-struct Readings(u32);
+/// A clock that advances with every reading, by the same time, and a counter that does so by 7, from its third reading on
+/// by 10: the first two tell what a reading takes.
+struct Readings {
+    now_us: u64,
+    tick_us: u64,
+    count: u32,
+}
 
 impl Stopwatch for Readings {
+    fn now_us(&mut self) -> u64 {
+        let now_us = self.now_us;
+        self.now_us += self.tick_us;
+        now_us
+    }
+
     fn count(&mut self) -> u32 {
-        self.0 = self.0.wrapping_add(7);
-        self.0
+        self.count += if self.count < 14 { 7 } else { 10 };
+        self.count
     }
 }
 
@@ -24,6 +35,7 @@ struct Device {
     ring: Box<Ring<8192>>,
     decoder: Decoder,
     now_us: u64,
+    count: u32,
     sequence: u16,
     events: Vec<Event>,
 }
@@ -40,6 +52,7 @@ impl Device {
             ring: Box::new(Ring::new()),
             decoder: Decoder::new(),
             now_us: 1_000_000,
+            count: 0,
             sequence: 100,
             events: Vec::new(),
         }
@@ -84,7 +97,21 @@ impl Device {
     }
 
     fn tick(&mut self) {
-        self.session.tick(self.now_us, &mut Readings(0), &mut *self.ring);
+        self.tick_at(0);
+    }
+
+    /// Ticks with a clock that advances by so much between two readings.
+    fn tick_at(&mut self, tick_us: u64) {
+        let mut readings = Readings { now_us: self.now_us, tick_us, count: self.count };
+        self.session.tick(&mut readings, &mut *self.ring);
+        (self.now_us, self.count) = (readings.now_us, readings.count);
+    }
+
+    fn status(&mut self) -> Status {
+        match self.ask(&Command::Status) {
+            Reply::Status(status) => status,
+            other => panic!("the status is {other:?}"),
+        }
     }
 
     /// Lets the device run until it has nothing to do; the line takes `rate` bytes after each tick.
@@ -132,6 +159,9 @@ fn scene(name: &str, bodies: u16) -> SceneRequest {
         order: Order::Forward,
         level: Level::Flat,
         scalar: ScalarKind::Fixed,
+        iterations: None,
+        effects: None,
+        variant: Variant::default(),
     }
 }
 
@@ -144,6 +174,9 @@ fn everything(flow: Flow) -> StreamRequest {
         contacts: true,
         stage_digests: true,
         stage_times: true,
+        timing: true,
+        events: false,
+        measures_every: 0,
         statistics_every: 1,
         flow,
     }
@@ -170,6 +203,8 @@ fn what_cannot_be_done_is_refused_with_the_reason() {
     let mut device = Device::new();
     let at = |step, stage| Point { step, stage };
     assert_eq!(device.refusal(&Command::Run { steps: 1 }), "no scene is loaded");
+    let provoked = device.refusal(&Command::Provoke(Mishap::Panic));
+    assert_eq!(provoked, "this build doesn't fail on request; a test build does");
     assert_eq!(device.refusal(&Command::Watch(at(1, 0))), "no scene is loaded");
     assert_eq!(device.refusal(&Command::Load(scene("attic", 1))), "there is no scene named \"attic\"");
     assert_eq!(device.refusal(&Command::Load(scene("drop", 0))), "drop: bodies is 0, must be 1..=200");
@@ -214,8 +249,10 @@ fn the_clock_alone_paces_the_steps() {
         device.drain(FAST);
         assert_eq!(device.steps().len(), expected);
     }
-    let Reply::Status(status) = device.ask(&Command::Status) else { panic!() };
+    let status = device.status();
     assert_eq!((status.step, status.remaining, status.backlog_us), (72, 928, 800_000));
+    // The first of the last four, the 69th, was due at 69/60 s and ran at 2 s.
+    assert_eq!((status.late_us, status.overruns), (983_333, 12));
 }
 
 #[test]
@@ -275,7 +312,7 @@ fn a_host_that_wants_everything_gets_everything_however_slow_the_line() {
         match frame {
             Frame::Step { step, digest } => assert_eq!(device.steps()[*step as usize - 1].1, *digest),
             Frame::StageDigests { step, digests } => assert_eq!(digests[5], device.steps()[*step as usize - 1].1),
-            Frame::StageTimes { counts, .. } => assert_eq!(*counts, [7; 6]),
+            Frame::StageTimes { counts, .. } => assert_eq!(*counts, [3; 6], "without the 7 of the reading itself"),
             Frame::Bodies { total, bodies: some, at } => {
                 assert_eq!((*total, at.stage), (54, 5));
                 for body in some {
@@ -291,7 +328,8 @@ fn a_host_that_wants_everything_gets_everything_however_slow_the_line() {
                 assert_eq!((statistics.bodies, statistics.contacts_lost, statistics.escaped), (54, 0, 0));
                 assert!(statistics.contacts_peak >= statistics.contacts);
             }
-            Frame::Positions { .. } | Frame::Finished { .. } => {}
+            Frame::Timing { late_us, took_us, .. } => assert_eq!((*late_us, *took_us), (0, 0)),
+            _ => {}
         }
     }
     assert_eq!(bodies, 40 * 54);
@@ -393,8 +431,10 @@ fn loading_ends_a_run_and_forgets_what_was_counted() {
     }
     assert!(matches!(device.load("drop", 1), Reply::Loaded(_)));
     device.session.note_link(LinkCounters { received: 5, damaged: 2 });
-    let Reply::Status(status) = device.ask(&Command::Status) else { panic!() };
-    assert_eq!(status, Status { received: 5, damaged: 2, ..Status::default() });
+    device.session.note_stack(Stack { size: 100, peak: 60 });
+    let status = device.status();
+    let stack = Stack { size: 100, peak: 60 };
+    assert_eq!(status, Status { received: 5, damaged: 2, stack, ..Status::default() });
     assert_eq!(device.session.due_us(), None);
 }
 
@@ -402,6 +442,12 @@ fn loading_ends_a_run_and_forgets_what_was_counted() {
 fn a_sink_that_takes_nothing_harms_nobody() {
     struct Closed;
     impl Sink for Closed {
+        fn sequence(&self) -> u16 {
+            0
+        }
+
+        fn skip(&mut self) {}
+
         fn push(&mut self, _class: Class, _frame: &[u8]) -> bool {
             false
         }
@@ -410,10 +456,89 @@ fn a_sink_that_takes_nothing_harms_nobody() {
     device.start("drop", 1, everything(Flow::Drop), 10);
     for _ in 0..30 {
         device.now_us += 16_667;
-        device.session.tick(device.now_us, &mut Readings(0), &mut Closed);
+        device.session.tick(&mut Readings { now_us: device.now_us, tick_us: 0, count: 0 }, &mut Closed);
         device.session.handle(device.now_us, 1, &Command::Status, &mut Closed);
     }
     // Then the line works again, and the end of the run arrives.
     device.run(FAST);
     assert_eq!(device.finish().0, 10);
+}
+
+#[test]
+fn lateness_counts_from_when_a_step_was_due_and_duration_from_its_beginning() {
+    let mut device = Device::new();
+    let stream = StreamRequest { timing: true, ..StreamRequest::default() };
+    device.start("drop", 1, stream, 4);
+    let begun = device.now_us;
+    // The n-th step is due at n/60 s, rounded up to a whole microsecond.
+    for (now_us, tick_us) in [(16_667, 10), (33_340, 5), (50_000, 17_000)] {
+        device.now_us = begun + now_us;
+        device.tick_at(tick_us);
+    }
+    device.run(FAST);
+    let timings: Vec<_> = device
+        .frames()
+        .filter_map(|frame| match *frame {
+            Frame::Timing { step, late_us, took_us, overruns } => Some((step, late_us, took_us, overruns)),
+            _ => None,
+        })
+        .collect();
+    // A tick reads the clock when it starts, when a step begins, and when it ends; the third step ends when the fourth
+    // has long been due, and the fourth when the fifth has.
+    assert_eq!(timings, [(1, 10, 10, 0), (2, 11, 5, 0), (3, 17_000, 17_000, 1), (4, 34_333, 0, 2)]);
+    let status = device.status();
+    assert_eq!((status.late_us, status.took_us, status.overruns), (34_333, 17_000, 2));
+}
+
+#[test]
+fn a_device_without_a_host_runs_one_scene_after_the_other_in_silence() {
+    let mut device = Device::new();
+    let mut scenes = 0;
+    while scenes < 3 {
+        if device.session.due_us().is_none() {
+            device.session.demonstrate(device.now_us);
+            scenes += 1;
+        }
+        device.now_us = device.session.due_us().expect("a demo runs").max(device.now_us);
+        device.tick();
+    }
+    assert!(device.ring.is_empty());
+}
+
+#[test]
+fn a_host_finds_a_device_that_has_done_nothing_yet() {
+    let mut device = Device::new();
+    device.session.demonstrate(device.now_us);
+    device.now_us += 100_000;
+    device.tick();
+    assert_eq!(device.status(), Status::default());
+    device.session.demonstrate(device.now_us);
+    assert_eq!(device.session.due_us(), None, "a demo began although there is a host");
+    assert_eq!(device.refusal(&Command::Run { steps: 1 }), "no scene is loaded");
+}
+
+#[test]
+fn a_scene_is_varied_and_directed_as_it_would_be_without_a_session() {
+    let churn = flat_scenes::find("churn").unwrap();
+    let variant = flat_scenes::Variant { mirrored: true, phase: 7, ..flat_scenes::Variant::NONE };
+    let parameters = churn.vary(churn.defaults, variant).unwrap();
+    let mut storage = Box::new(Storage::<Fixed, 128, 1024>::new());
+    let mut world = storage.world();
+    churn.build(&parameters, flat_physics::Level::Grounded, &mut world).unwrap();
+    for step in 1..=50 {
+        churn.direct(&parameters, flat_scenes::Cue { step, buttons: 0 }, &mut world).unwrap();
+        flat_physics::step(&mut world, churn.effects);
+    }
+
+    let mut device = Device::new();
+    let variant = Variant { mirrored: true, phase: 7, ..Variant::default() };
+    let request = SceneRequest { bodies: None, level: Level::Grounded, variant, ..scene("churn", 0) };
+    assert!(matches!(device.ask(&Command::Load(request.clone())), Reply::Loaded(_)));
+    assert_eq!(device.ask(&Command::Run { steps: 50 }), Reply::Done);
+    device.run(FAST);
+    assert_eq!(device.finish().1, flat_physics::digest(&world));
+
+    assert_eq!(device.refusal(&Command::Input { buttons: 1 }), "churn has no player");
+    let gapped = SceneRequest { variant: Variant { gap: 3, ..Variant::default() }, ..request };
+    assert_eq!(device.refusal(&Command::Load(gapped)), "churn: there is no room for a gap");
 }

@@ -10,6 +10,7 @@ use riscv::interrupt::Interrupt;
 use riscv::register::mie;
 
 use super::register::Register;
+use crate::{board, fault, watchdog};
 
 /// Counts of `mtime` in a microsecond: it runs at 10 MHz.
 const COUNTS_PER_US: u64 = 10;
@@ -42,7 +43,10 @@ impl Driver for Clock {
 impl Clock {
     /// Wakes what is due and sets the comparator to what comes next.
     fn rearm(&self, cs: CriticalSection<'_>) {
-        match self.queue.borrow_ref_mut(cs).next_expiration(now_us()) {
+        let now_us = now_us();
+        let due_us = self.queue.borrow_ref_mut(cs).next_expiration(now_us);
+        let watch_us = if watchdog::is_needed() { now_us + watchdog::PERIOD.as_micros() } else { u64::MAX };
+        match due_us.min(watch_us) {
             // Masked, not set to the end of time: an idle QEMU with `-icount sleep=off` goes to the next alarm at once.
             u64::MAX => mie_timer(false),
             at_us => {
@@ -55,6 +59,14 @@ impl Clock {
 
 #[riscv_rt::core_interrupt(Interrupt::MachineTimer)]
 fn on_alarm() {
+    if let Some(work) = watchdog::overdue() {
+        fault::hangs(work, board::trail_of_interrupted());
+    }
+    critical_section::with(|cs| CLOCK.rearm(cs));
+}
+
+/// Lets the watchdog look after work that begins now.
+pub(super) fn watch() {
     critical_section::with(|cs| CLOCK.rearm(cs));
 }
 

@@ -141,13 +141,14 @@ impl Write for Transmitter {
     }
 }
 
-/// Sends text without interrupts, for a device that is about to end.
-pub(super) fn send_blocking(text: &[u8]) {
-    for &byte in text {
+/// Sends without interrupts, for a device that is about to restart. This port takes everything, so true.
+pub(crate) fn send_blocking(bytes: &[u8]) -> bool {
+    for &byte in bytes {
         while LINE_STATUS.read() & FIFO_EMPTY == 0 {}
         DATA.write(byte);
     }
     while LINE_STATUS.read() & IDLE == 0 {}
+    true
 }
 
 /// Asks for one interrupt from this source. It comes at once where the condition holds already.

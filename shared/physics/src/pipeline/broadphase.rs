@@ -1,194 +1,127 @@
 //! Which bodies may touch: two layers, in an order that only geometry decides.
 //!
-//! Rigid bodies are swept from the lowest bottom edge up. A body that the sweep has passed waits in a list, one of 64 columns
-//! hashed from its centre, until the sweep has left its top edge behind; the next body looks into the columns that it can
-//! reach. Bodies wider than a column wait in a list of their own. Static bodies lie in a [`Grid`](super::grid::Grid) that is
-//! rebuilt only when one of them changed. There is no cap per cell, no end of the world and no limit to a body's size.
+//! Moving bodies are swept from the lowest centre up. A body that the sweep has passed waits in a list, one of 64 columns hashed
+//! from its centre, until the sweep has left it behind; the next body looks into the columns that it can reach. Bodies larger
+//! than a column wait in a list of their own. Static bodies lie in a [`Grid`] that is rebuilt only when one of them changed.
+//! There is no cap per cell, no end of the world and no limit to a body's size.
 //!
-//! A body's candidates are sorted by the same order as the sweep. So the contacts of a step, and with them all results,
-//! depend on where bodies are and not on when they were inserted, nor on where the columns lie; only bodies with equal centres
-//! and sizes are told apart by their slots.
+//! What is found are pairs that may touch before bodies have moved by a [`SKIN`]; until then the same pairs serve step after
+//! step. A pair's contacts lie in the order of the bodies, so results depend on where bodies are and not on when they were
+//! inserted; only bodies with equal centres and sizes are told apart by their slots.
 
-use super::grid::Grid;
-use super::narrowphase;
-use crate::body::Body;
-use crate::scalar::Scalar;
+use super::grid::{Bounds, Grid};
+use super::integrate;
+use super::order::{self, Ground};
+use super::pairs::{NONE, Update};
+use super::terrain;
+use crate::body::{Body, Profile};
+use crate::contact::Flags;
+use crate::effects::{Effects, Switches};
+use crate::scalar::{Quantity, Scalar, px};
+use crate::tiles::TileMap;
+use crate::vec2::Vec2;
 use crate::world::World;
 
-/// Marks the end of a list.
-const NONE: u16 = u16::MAX;
+/// How far bodies move before pairs are looked for again, px.
+const SKIN: i16 = 1;
 const COLUMNS: usize = 64;
 
-/// Scratch space of the broadphase: one entry a body each, two for the grid.
+/// What the broadphase keeps from step to step, and its scratch space: four entries a body.
 #[derive(Debug)]
 pub(crate) struct Layers<'a> {
-    /// Rigid bodies in sweep order.
-    dynamics: &'a mut [u16],
+    /// Moving bodies in sweep order, then static ones.
+    order: &'a mut [u16],
     dynamic_count: usize,
-    dynamics_dirty: bool,
+    static_count: usize,
     /// Next body in the same list of the sweep.
     links: &'a mut [u16],
-    candidates: &'a mut [u16],
-    statics: &'a mut [u16],
-    static_count: usize,
-    statics_dirty: bool,
+    /// First contact of each body, by slot.
+    groups: &'a mut [u16],
     grid: Grid<'a>,
-    /// Width of a column, as a power of two of px.
-    column_shift: u32,
+    ground: Ground,
+    /// Bodies came, went or changed.
+    dirty: bool,
+    /// Static bodies did.
+    statics_dirty: bool,
 }
 
 impl<'a> Layers<'a> {
     pub(crate) fn new(
-        dynamics: &'a mut [u16],
+        order: &'a mut [u16],
         links: &'a mut [u16],
-        candidates: &'a mut [u16],
-        statics: &'a mut [u16],
+        groups: &'a mut [u16],
         entries: &'a mut [u16],
     ) -> Self {
         Self {
-            dynamics,
+            order,
             dynamic_count: 0,
-            dynamics_dirty: true,
-            links,
-            candidates,
-            statics,
             static_count: 0,
-            statics_dirty: true,
+            links,
+            groups,
             grid: Grid::new(entries),
-            column_shift: 0,
+            ground: Ground::default(),
+            dirty: true,
+            statics_dirty: true,
         }
     }
 
-    /// Rigid bodies that take part, in the order of the last sweep.
+    /// Becomes as another one of the same size is.
+    pub(crate) fn copy_from(&mut self, other: &Layers<'_>) {
+        let Layers { order, dynamic_count, static_count, links, groups, grid, ground, dirty, statics_dirty } = other;
+        self.order.copy_from_slice(order);
+        self.links.copy_from_slice(links);
+        self.groups.copy_from_slice(groups);
+        self.grid.copy_from(grid);
+        (self.dynamic_count, self.static_count, self.ground) = (*dynamic_count, *static_count, *ground);
+        (self.dirty, self.statics_dirty) = (*dirty, *statics_dirty);
+    }
+
+    /// Bodies that may move, in the order of the last sweep: from the ground up.
     #[inline]
     pub(crate) fn dynamics(&self) -> &[u16] {
-        &self.dynamics[..self.dynamic_count]
+        &self.order[..self.dynamic_count]
     }
 
-    /// A rigid body was added, removed or resized.
-    pub(crate) fn dynamics_changed(&mut self) {
-        self.dynamics_dirty = true;
+    /// Bodies that may move, and the static layer, unless bodies came, went or changed since the last step.
+    pub(crate) fn up_to_date(&self) -> Option<(&[u16], &Grid<'a>)> {
+        (!self.dirty).then(|| (self.dynamics(), &self.grid))
     }
 
-    /// A static body was added, removed, resized or moved.
-    pub(crate) fn statics_changed(&mut self) {
-        self.statics_dirty = true;
+    /// The static layer.
+    pub(crate) fn statics(&self) -> &Grid<'a> {
+        &self.grid
+    }
+
+    #[inline]
+    pub(crate) fn ground(&self) -> Ground {
+        self.ground
+    }
+
+    /// A body was added, removed or changed.
+    pub(crate) fn changed(&mut self, is_static: bool) {
+        self.dirty = true;
+        self.statics_dirty |= is_static;
     }
 
     /// Brings both layers up to date with the bodies.
-    fn refresh<S: Scalar>(&mut self, bodies: &[Body<S>]) {
+    pub(crate) fn refresh<S: Scalar>(&mut self, bodies: &[Body<S>]) {
+        if !self.dirty {
+            order::resort(&mut self.order[..self.dynamic_count], bodies, self.ground);
+            return;
+        }
+        self.dirty = false;
+        self.dynamic_count = gather(self.order, bodies, |body| !body.status.is_static());
+        let (dynamics, rest) = self.order.split_at_mut(self.dynamic_count);
+        self.static_count = gather(rest, bodies, |body| body.status.is_static());
+        order::sort(dynamics, bodies, self.ground);
         if self.statics_dirty {
             self.statics_dirty = false;
-            self.static_count = gather(self.statics, bodies, |body| body.status.is_static());
-            let statics = &mut self.statics[..self.static_count];
-            sort(statics, bodies, &GAPS);
-            self.grid.rebuild(statics, bodies);
-        }
-        if self.dynamics_dirty {
-            self.dynamics_dirty = false;
-            self.dynamic_count = gather(self.dynamics, bodies, |body| !body.status.is_static());
-            let dynamics = &mut self.dynamics[..self.dynamic_count];
-            sort(dynamics, bodies, &GAPS);
-            self.column_shift = column_shift(dynamics, bodies);
-        } else {
-            // Little has changed since the last step: one pass over an almost sorted list.
-            sort(&mut self.dynamics[..self.dynamic_count], bodies, &[1]);
+            self.grid.rebuild(&rest[..self.static_count], bodies);
         }
     }
 }
 
-/// Finds all contacts: each rigid body against those below it, then against static bodies.
-pub(crate) fn detect<S: Scalar>(world: &mut World<'_, S>) {
-    let World { bodies, profiles, layers, pool, .. } = world;
-    pool.clear();
-    layers.refresh(bodies);
-    let Layers { dynamics, dynamic_count, links, candidates, grid, column_shift, .. } = layers;
-    let mut sweep = Sweep { links, columns: [NONE; COLUMNS], wide: NONE, shift: *column_shift };
-    for &slot in &dynamics[..*dynamic_count] {
-        let body = &bodies[usize::from(slot)];
-        let mut found = 0;
-        let mut note = |other: u16| {
-            candidates[found] = other;
-            found += 1;
-        };
-        sweep.visit(slot, bodies, &mut note);
-        grid.visit(body, bodies, &mut note);
-        let candidates = &mut candidates[..found];
-        sort(candidates, bodies, &[1]);
-        for &other in &*candidates {
-            narrowphase::touch(slot, other, bodies, profiles, pool);
-        }
-    }
-}
-
-/// The bodies that the sweep has passed and not yet left behind.
-struct Sweep<'a> {
-    links: &'a mut [u16],
-    columns: [u16; COLUMNS],
-    wide: u16,
-    shift: u32,
-}
-
-impl Sweep<'_> {
-    /// Notes all waiting bodies whose bounding boxes touch this one's, then lets this one wait.
-    fn visit<S: Scalar>(&mut self, slot: u16, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
-        let body = &bodies[usize::from(slot)];
-        // Whoever waits in a column reaches at most half a column's width beyond its own centre.
-        let reach = 1 << self.shift >> 1;
-        let first = (S::floor(body.left()) - reach) >> self.shift;
-        let last = (S::floor(body.right()) + reach) >> self.shift;
-        for column in first..=last.min(first + COLUMNS as i32 - 1) {
-            walk(&mut self.columns[column as usize % COLUMNS], self.links, body, bodies, note);
-        }
-        walk(&mut self.wide, self.links, body, bodies, note);
-
-        let list = if is_wide(body, self.shift) {
-            &mut self.wide
-        } else {
-            &mut self.columns[(S::floor(body.position.x) >> self.shift) as usize % COLUMNS]
-        };
-        self.links[usize::from(slot)] = *list;
-        *list = slot;
-    }
-}
-
-/// Notes the bodies of one list that touch `body`'s bounding box, and takes out those that the sweep has left behind.
-fn walk<S: Scalar>(head: &mut u16, links: &mut [u16], body: &Body<S>, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
-    let bottom = body.bottom();
-    let (mut previous, mut slot) = (NONE, *head);
-    while slot != NONE {
-        let next = links[usize::from(slot)];
-        let other = &bodies[usize::from(slot)];
-        if other.top() > bottom {
-            let link = if previous == NONE { &mut *head } else { &mut links[usize::from(previous)] };
-            *link = next;
-        } else {
-            if other.spans_column_of(body) {
-                note(slot);
-            }
-            previous = slot;
-        }
-        slot = next;
-    }
-}
-
-fn is_wide<S: Scalar>(body: &Body<S>, shift: u32) -> bool {
-    width(body) > 1 << shift
-}
-
-/// Whole px, rounded up.
-fn width<S: Scalar>(body: &Body<S>) -> i32 {
-    -S::floor(-(body.half.x + body.half.x))
-}
-
-/// The least power of two that is no narrower than the mean body.
-fn column_shift<S: Scalar>(dynamics: &[u16], bodies: &[Body<S>]) -> u32 {
-    let total: u32 = dynamics.iter().map(|&slot| width(&bodies[usize::from(slot)]) as u32).sum();
-    let mean = total.div_ceil(dynamics.len().max(1) as u32).max(4);
-    mean.next_power_of_two().trailing_zeros()
-}
-
-/// Lists the enabled bodies of a kind.
+/// Lists the bodies of a kind that collide or move.
 fn gather<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], belongs: impl Fn(&Body<S>) -> bool) -> usize {
     let mut count = 0;
     for (slot, body) in bodies.iter().enumerate() {
@@ -200,38 +133,267 @@ fn gather<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], belongs: impl Fn(&Bod
     count
 }
 
-/// Gaps of a Shell sort (M. Ciura, 2001).
-const GAPS: [usize; 8] = [701, 301, 132, 57, 23, 10, 4, 1];
+/// Brings the pairs up to date, if bodies may have met since that was last done.
+pub(crate) fn update<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    turn(world, Ground::of(integrate::gravity(world, switches)));
+    let skin = S::per_step(S::real(px(SKIN)));
+    if !world.layers.dirty && world.travel.saturating_add(world.fastest) < skin {
+        return;
+    }
+    world.travel = S::Speed::ZERO;
+    find_pairs(world, switches);
+    world.fastest = fastest(world);
+}
 
-/// Sorts from the lowest bottom edge up, equal ones from left to right, and those by slot: a total order.
-fn sort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], gaps: &[usize]) {
-    for &gap in gaps {
-        for start in gap..list.len() {
-            let slot = list[start];
-            let mut place = start;
-            while place >= gap && precedes(slot, list[place - gap], bodies) {
-                list[place] = list[place - gap];
-                place -= gap;
-            }
-            list[place] = slot;
-        }
+/// Sorts bodies towards another ground, if gravity pulls elsewhere: what bears whom is then another matter.
+fn turn<S: Scalar>(world: &mut World<'_, S>, ground: Ground) {
+    if ground != world.layers.ground {
+        (world.layers.ground, world.layers.dirty) = (ground, true);
+        world.pool.all_mut().iter_mut().for_each(|contact| contact.flags.set(Flags::NEW));
     }
 }
 
+/// Largest velocity component.
+fn fastest<S: Scalar>(world: &World<'_, S>) -> S::Speed {
+    let speeds = world.layers.dynamics().iter().map(|&slot| world.bodies[usize::from(slot)].velocity);
+    speeds.fold(S::Speed::ZERO, integrate::larger)
+}
+
+fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let sensors = switches.on(Effects::SENSORS);
+    let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
+    let terrain = world.terrain;
+    let World { bodies, profiles, layers, pool, tiles, .. } = world;
+    if !tell_ends {
+        pool.forget_aside();
+    }
+    if layers.dirty {
+        pool.set_aside(tell_ends);
+    }
+    layers.refresh(bodies);
+    let Layers { order, dynamic_count, links, groups, grid, ground, .. } = layers;
+    let dynamics = &order[..*dynamic_count];
+    let mut update = Update::new(pool, groups, dynamics);
+    let mut sweep = Sweep::new(links, dynamics, bodies, *ground);
+    for (rank, &slot) in dynamics.iter().enumerate() {
+        let body = &bodies[usize::from(slot)];
+        if !body.status.collides() {
+            continue;
+        }
+        let near = Near::new(body);
+        let mut note = |upper: u16, lower: u16| {
+            if meet(upper, lower, bodies, profiles, sensors) {
+                update.note(upper, lower, bodies, profiles);
+            }
+        };
+        sweep.visit(rank, dynamics, &near, bodies, &mut note);
+        if body.status.is_rigid() || sensors {
+            grid.visit(&near.bounds(), bodies, &mut |other| note(slot, other));
+        }
+        if switches.on(Effects::TILES) && terrain != NONE && (body.status.is_rigid() || sensors) {
+            look_for_tiles(slot, terrain, body, &mut update, tiles, profiles);
+        }
+    }
+    update.finish(dynamics, links, bodies, profiles, *ground, tell_ends);
+}
+
+/// Makes room for what a body may touch of the tile map before it has moved by a skin, or in this step at its speed.
+fn look_for_tiles<S: Scalar>(
+    slot: u16,
+    map: u16,
+    body: &Body<S>,
+    update: &mut Update<'_, '_, S>,
+    tiles: &TileMap<'_>,
+    profiles: &[Profile<S>],
+) {
+    if !profiles[usize::from(slot)].meets(&profiles[usize::from(map)]) {
+        return;
+    }
+    let speed = body.velocity.map(S::in_a_step);
+    let reach = S::real(px(2 * SKIN)) + speed.x.abs().greater(speed.y.abs());
+    if body.status.is_rigid() && !body.status.is_sensor() {
+        update.note_terrain(slot, map, terrain::room(tiles, body, reach), profiles);
+    }
+    terrain::sensors(tiles, body, reach, |number| update.note_sensor_tile(slot, map, number, profiles));
+}
+
+/// The neighbourhood of a body: whom it may touch before both have moved by a skin, or in this step at their speeds.
+struct Near<S: Scalar> {
+    centre: Vec2<S::Real>,
+    /// Half extents and two skins.
+    reach: Vec2<S::Real>,
+    velocity: Vec2<S::Speed>,
+}
+
+impl<S: Scalar> Near<S> {
+    #[inline]
+    fn new(body: &Body<S>) -> Self {
+        let margin = S::real(px(2 * SKIN));
+        Self { centre: body.position, reach: body.half.map(|half| half + margin), velocity: body.velocity }
+    }
+
+    #[inline]
+    fn may_meet(&self, other: &Body<S>) -> bool {
+        // Most are too far aside: that is asked first.
+        let apart = |offset: S::Real, reach: S::Real, own: S::Speed, other: S::Speed| {
+            let space = offset.abs() - reach;
+            space > S::Real::ZERO && space > S::in_a_step(other.saturating_sub(own)).abs()
+        };
+        !apart(other.position.x - self.centre.x, self.reach.x + other.half.x, self.velocity.x, other.velocity.x)
+            && !apart(other.position.y - self.centre.y, self.reach.y + other.half.y, self.velocity.y, other.velocity.y)
+    }
+
+    /// Where it may touch what doesn't move.
+    fn bounds(&self) -> Bounds<S> {
+        let speed = self.velocity.map(|v| S::in_a_step(v).abs());
+        Bounds::around(self.centre, self.reach + speed)
+    }
+}
+
+/// Whether anything happens when two bodies touch.
 #[inline]
-fn precedes<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>]) -> bool {
-    let (first, second) = (&bodies[usize::from(a)], &bodies[usize::from(b)]);
-    let (low, high) = (first.bottom(), second.bottom());
-    if low != high {
-        return low > high;
+fn meet<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>], sensors: bool) -> bool {
+    let (first, second) = (bodies[usize::from(a)].status, bodies[usize::from(b)].status);
+    (first.is_rigid() || second.is_rigid() || (sensors && (first.is_sensor() || second.is_sensor())))
+        && second.collides()
+        && profiles[usize::from(a)].meets(&profiles[usize::from(b)])
+}
+
+/// The bodies that the sweep has passed and not yet left behind.
+struct Sweep<'a, R, T> {
+    links: &'a mut [u16],
+    columns: [u16; COLUMNS],
+    /// Large and fast bodies passed.
+    wide: u16,
+    /// Width of a column, as a power of two of px.
+    shift: u32,
+    /// How far whoever waits in a column reaches beyond its centre, at most.
+    reach: R,
+    /// Mean velocity: what all share brings nobody together.
+    drift: Vec2<T>,
+    ground: Ground,
+}
+
+impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
+    /// Columns as wide as the mean body, and room for its mean speed.
+    fn new<S: Scalar<Real = R, Speed = T>>(
+        links: &'a mut [u16],
+        order: &[u16],
+        bodies: &[Body<S>],
+        ground: Ground,
+    ) -> Self {
+        let all = || order.iter().map(|&slot| &bodies[usize::from(slot)]);
+        let count = order.len().max(1) as u32;
+        let drift = S::mean_velocity(all().map(|body| body.velocity), count);
+        let mut sweep = Self { links, columns: [NONE; COLUMNS], wide: NONE, shift: 0, reach: R::ZERO, drift, ground };
+        let mut width = 0;
+        for body in all() {
+            width += S::floor(skinned(body)) as u32;
+        }
+        sweep.shift = (2 * width.div_ceil(count)).max(4).next_power_of_two().trailing_zeros();
+        let speed = S::mean_length(all().map(|body| sweep.speed(body)), count);
+        sweep.reach = S::real(px(1 << sweep.shift >> 1)) + speed + speed;
+        sweep
     }
-    let (left, right) = (first.position.x, second.position.x);
-    if left != right {
-        return left < right;
+
+    /// How far a body comes in a step, beside what all do.
+    #[inline]
+    fn speed<S: Scalar<Real = R, Speed = T>>(&self, body: &Body<S>) -> R {
+        let speed = body.velocity.saturating_sub(self.drift).map(Quantity::abs);
+        S::in_a_step(speed.x.greater(speed.y))
     }
-    let (small, large) = (first.half.y, second.half.y);
-    if small != large {
-        return small < large;
+
+    /// How far a body reaches in a step.
+    #[inline]
+    fn extent<S: Scalar<Real = R, Speed = T>>(&self, body: &Body<S>) -> R {
+        skinned(body) + self.speed(body)
     }
-    a < b
+
+    /// Notes all bodies passed that the body at this rank may meet, then lets it wait.
+    #[inline]
+    fn visit<S: Scalar<Real = R, Speed = T>>(
+        &mut self,
+        rank: usize,
+        order: &[u16],
+        near: &Near<S>,
+        bodies: &[Body<S>],
+        note: &mut impl FnMut(u16, u16),
+    ) {
+        let slot = order[rank];
+        let body = &bodies[usize::from(slot)];
+        let extent = self.extent(body);
+        if extent > self.reach {
+            self.visit_wide(rank, order, near, bodies, note);
+            return;
+        }
+        let (depth, across) = (self.ground.depth(body.position), self.ground.across(body.position));
+        let reach = extent + self.reach;
+        let behind = depth.saturating_add(self.reach + self.reach);
+        let column = |x: R| S::floor(x) >> self.shift;
+        let (first, last) = (column(across.saturating_sub(reach)), column(across.saturating_add(reach)));
+        let home = column(across);
+        for column in first..=last {
+            let head = &mut self.columns[column as usize % COLUMNS];
+            let (mut previous, mut other) = (NONE, *head);
+            while other != NONE {
+                let waiting = &bodies[usize::from(other)];
+                if self.ground.depth(waiting.position) > behind {
+                    // It came before all that follow it in the list: they are behind as well.
+                    let link = if previous == NONE { &mut *head } else { &mut self.links[usize::from(previous)] };
+                    *link = NONE;
+                    break;
+                }
+                if near.may_meet(waiting) {
+                    note(slot, other);
+                }
+                previous = other;
+                other = self.links[usize::from(other)];
+            }
+        }
+        let column = &mut self.columns[home as usize % COLUMNS];
+        self.links[usize::from(slot)] = *column;
+        *column = slot;
+    }
+
+    /// The same for a large or fast body, which doesn't wait: it looks at all whose depth it reaches, passed and to come.
+    #[cold]
+    fn visit_wide<S: Scalar<Real = R, Speed = T>>(
+        &mut self,
+        rank: usize,
+        order: &[u16],
+        near: &Near<S>,
+        bodies: &[Body<S>],
+        note: &mut impl FnMut(u16, u16),
+    ) {
+        let slot = order[rank];
+        let body = &bodies[usize::from(slot)];
+        let (depth, extent) = (self.ground.depth(body.position), self.extent(body));
+        // Notes one that would wait, if it is near; false once the search is beyond the reach of any such.
+        let mut look = |other: u16, is_lower: bool| {
+            let waits = &bodies[usize::from(other)];
+            if waits.status.collides() && near.may_meet(waits) && self.extent(waits) <= self.reach {
+                let (upper, lower) = if is_lower { (slot, other) } else { (other, slot) };
+                note(upper, lower);
+            }
+            (self.ground.depth(waits.position) - depth).abs() <= extent.saturating_add(self.reach)
+        };
+        let _ = order[..rank].iter().rev().all(|&other| look(other, true));
+        let _ = order[rank + 1..].iter().all(|&other| look(other, false));
+        // Two of this kind are found by the upper one.
+        let mut other = self.wide;
+        while other != NONE {
+            if near.may_meet(&bodies[usize::from(other)]) {
+                note(slot, other);
+            }
+            other = self.links[usize::from(other)];
+        }
+        self.links[usize::from(slot)] = self.wide;
+        self.wide = slot;
+    }
+}
+
+/// Half of the larger side and a skin.
+#[inline]
+fn skinned<S: Scalar>(body: &Body<S>) -> S::Real {
+    body.half.x.greater(body.half.y) + S::real(px(SKIN))
 }

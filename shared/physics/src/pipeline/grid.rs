@@ -2,16 +2,20 @@
 
 use crate::body::Body;
 use crate::scalar::Scalar;
+use crate::vec2::Vec2;
 
-/// Buckets, as a torus of 8 x 8 cells.
-const BUCKETS: usize = 64;
+/// Cells along each side of the torus.
+const SIDE: i32 = 16;
+const BUCKETS: usize = (SIDE * SIDE) as usize;
+/// Up to so many bodies, cells grow until none of them share a bucket: a room's walls are then far from its middle.
+const FEW: usize = 128;
 /// Shift of whole px that puts every coordinate that a body can have at or above 0.
 const ORIGIN: i32 = 1 << 15;
 /// Cells start at 16 px, and grow until all entries fit. At `COARSEST` the whole world is one cell.
 const FINEST: u32 = 4;
 const COARSEST: u32 = 16;
 
-/// Static bodies by cell; cells that are 8 apart share a bucket.
+/// Static bodies by cell; cells that are 16 apart share a bucket.
 #[derive(Debug)]
 pub(crate) struct Grid<'a> {
     /// Slots, bucket by bucket.
@@ -19,6 +23,26 @@ pub(crate) struct Grid<'a> {
     /// Where each bucket ends; it begins where the one before ends.
     ends: [u16; BUCKETS],
     shift: u32,
+}
+
+/// An upright rectangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds<S: Scalar> {
+    pub(crate) min: Vec2<S::Real>,
+    pub(crate) max: Vec2<S::Real>,
+}
+
+impl<S: Scalar> Bounds<S> {
+    pub(crate) fn around(centre: Vec2<S::Real>, half: Vec2<S::Real>) -> Self {
+        Self { min: centre.saturating_sub(half), max: centre.saturating_add(half) }
+    }
+
+    fn touch(&self, body: &Body<S>) -> bool {
+        body.left() <= self.max.x
+            && body.right() >= self.min.x
+            && body.top() <= self.max.y
+            && body.bottom() >= self.min.y
+    }
 }
 
 /// A span of cells, ends included.
@@ -31,31 +55,53 @@ struct Cells {
 }
 
 impl Cells {
-    fn of<S: Scalar>(body: &Body<S>, shift: u32) -> Self {
+    fn of<S: Scalar>(bounds: &Bounds<S>, shift: u32) -> Self {
         let cell = |edge| (S::floor(edge) + ORIGIN) >> shift;
-        Self { left: cell(body.left()), top: cell(body.top()), right: cell(body.right()), bottom: cell(body.bottom()) }
+        let Bounds { min, max } = bounds;
+        Self { left: cell(min.x), top: cell(min.y), right: cell(max.x), bottom: cell(max.y) }
     }
 
-    /// The set of buckets, a bit each.
-    fn buckets(self) -> u64 {
-        let across = (self.left..=self.right.min(self.left + 7)).fold(0u64, |set, x| set | 1 << (x & 7));
-        (self.top..=self.bottom.min(self.top + 7)).fold(0, |set, y| set | across << ((y & 7) * 8))
+    fn under<S: Scalar>(body: &Body<S>, shift: u32) -> Self {
+        Self::of(&Bounds::<S>::around(body.position, body.half), shift)
+    }
+
+    /// Calls a function for every bucket.
+    #[inline]
+    fn each_bucket(self, mut visit: impl FnMut(usize)) {
+        for y in self.top..=self.bottom.min(self.top + SIDE - 1) {
+            for x in self.left..=self.right.min(self.left + SIDE - 1) {
+                visit(bucket(x, y));
+            }
+        }
     }
 
     /// The bucket of the cell in which two bodies' common part begins: there, and only there, the pair is reported.
-    fn meeting_bucket(self, other: Self) -> u32 {
+    fn meeting_bucket(self, other: Self) -> usize {
         let (x, y) = (self.left.max(other.left), self.top.max(other.top));
-        (x & 7) as u32 | ((y & 7) as u32) << 3
+        bucket(x, y)
     }
 }
 
-/// The bits that are set, in ascending order.
-fn bits(mut set: u64) -> impl Iterator<Item = u32> {
-    core::iter::from_fn(move || {
-        let bit = set.trailing_zeros();
-        set &= set.wrapping_sub(1);
-        (bit < u64::BITS).then_some(bit)
-    })
+#[inline]
+fn bucket(x: i32, y: i32) -> usize {
+    ((y & (SIDE - 1)) * SIDE + (x & (SIDE - 1))) as usize
+}
+
+/// The finest cells for so many bodies.
+fn finest<S: Scalar>(statics: &[u16], bodies: &[Body<S>]) -> u32 {
+    let spans = |shift: u32| {
+        let mut all = statics.iter().map(|&slot| Cells::under(&bodies[usize::from(slot)], shift));
+        let first = all.next()?;
+        let all = all.fold(first, |a, b| Cells {
+            left: a.left.min(b.left),
+            top: a.top.min(b.top),
+            right: a.right.max(b.right),
+            bottom: a.bottom.max(b.bottom),
+        });
+        Some((all.right - all.left).max(all.bottom - all.top))
+    };
+    let fits = |shift: &u32| statics.len() > FEW || spans(*shift).is_none_or(|span| span < SIDE);
+    (FINEST..COARSEST).find(fits).unwrap_or(COARSEST)
 }
 
 impl<'a> Grid<'a> {
@@ -64,16 +110,21 @@ impl<'a> Grid<'a> {
         Self { entries, ends: [0; BUCKETS], shift: FINEST }
     }
 
+    /// Becomes as another one of the same size is.
+    pub(crate) fn copy_from(&mut self, other: &Grid<'_>) {
+        let Grid { entries, ends, shift } = other;
+        self.entries.copy_from_slice(entries);
+        (self.ends, self.shift) = (*ends, *shift);
+    }
+
     /// Files the bodies in the finest cells that fit.
     pub(crate) fn rebuild<S: Scalar>(&mut self, statics: &[u16], bodies: &[Body<S>]) {
         let mut counts = [0u32; BUCKETS];
-        for shift in FINEST..=COARSEST {
+        for shift in finest(statics, bodies)..=COARSEST {
             self.shift = shift;
             counts = [0; BUCKETS];
             for &slot in statics {
-                for bucket in bits(Cells::of(&bodies[usize::from(slot)], shift).buckets()) {
-                    counts[bucket as usize] += 1;
-                }
+                Cells::under(&bodies[usize::from(slot)], shift).each_bucket(|bucket| counts[bucket] += 1);
             }
             if counts.iter().sum::<u32>() as usize <= self.entries.len() {
                 break;
@@ -85,30 +136,28 @@ impl<'a> Grid<'a> {
             total += count as u16;
         }
         for &slot in statics {
-            for bucket in bits(Cells::of(&bodies[usize::from(slot)], self.shift).buckets()) {
-                let end = &mut self.ends[bucket as usize];
+            Cells::under(&bodies[usize::from(slot)], self.shift).each_bucket(|bucket| {
+                let end = &mut self.ends[bucket];
                 self.entries[usize::from(*end)] = slot;
                 *end += 1;
-            }
+            });
         }
     }
 
-    /// Notes all static bodies whose bounding boxes touch this one's, each once.
-    pub(crate) fn visit<S: Scalar>(&self, body: &Body<S>, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
+    /// Notes all static bodies whose bounding boxes touch these bounds, each once.
+    pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
         if self.ends[BUCKETS - 1] == 0 {
             return;
         }
-        let cells = Cells::of(body, self.shift);
-        for bucket in bits(cells.buckets()) {
-            let start = if bucket == 0 { 0 } else { self.ends[bucket as usize - 1] };
-            for &slot in &self.entries[usize::from(start)..usize::from(self.ends[bucket as usize])] {
+        let cells = Cells::of(bounds, self.shift);
+        cells.each_bucket(|bucket| {
+            let start = if bucket == 0 { 0 } else { self.ends[bucket - 1] };
+            for &slot in &self.entries[usize::from(start)..usize::from(self.ends[bucket])] {
                 let other = &bodies[usize::from(slot)];
-                let touching =
-                    other.spans_column_of(body) && other.top() <= body.bottom() && other.bottom() >= body.top();
-                if touching && cells.meeting_bucket(Cells::of(other, self.shift)) == bucket {
+                if bounds.touch(other) && cells.meeting_bucket(Cells::under(other, self.shift)) == bucket {
                     note(slot);
                 }
             }
-        }
+        });
     }
 }

@@ -1,33 +1,120 @@
-//! Motion: velocities from gravity, positions from velocities (semi-implicit Euler).
+//! Motion: velocities from gravity, damping and the speed cap; positions from velocities.
+//!
+//! A body that nothing holds moves by the mean of its velocities before and after the step, along each axis: what accelerates it
+//! evenly, gravity in flight or friction on a floor, then carries it as far as the closed form says, `v t + a t^2 / 2`. Along an
+//! axis on which a contact pushes, the velocity after the step counts: it is the one that the contact allows.
 
+use crate::body::{Body, Marks};
+use crate::config::Level;
 use crate::effects::{Effects, Switches};
+use crate::pipeline::bounce;
 use crate::scalar::{Quantity, Scalar};
+use crate::vec2::Vec2;
 use crate::world::World;
 
-/// Adds a step's gravity to every rigid body.
+/// What gravity adds to a velocity in a step, where it is on.
+pub(crate) fn gravity<S: Scalar>(world: &World<'_, S>, switches: impl Switches) -> Vec2<S::Speed> {
+    if switches.on(Effects::GRAVITY) { world.gravity } else { Vec2::default() }
+}
+
+/// Lets contacts bounce, then accelerates every rigid body.
 pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    if !switches.on(Effects::GRAVITY) {
-        return;
+    let gravity = gravity(world, switches);
+    if switches.on(Effects::BOUNCE) && world.config.level != Level::Flat {
+        bounce::bounce(world, gravity);
     }
-    let gravity = world.gravity;
+    let (damping, cap) = (world.config.damping, world.speed_cap);
+    let pulls = gravity != Vec2::default();
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
-        let scale = world.profiles[usize::from(slot)].gravity_scale;
-        let pull = if scale == S::ONE { gravity } else { gravity.map(|g| S::speed_scaled(g, scale)) };
-        body.velocity = body.velocity.saturating_add(pull);
+        let before = body.velocity;
+        let mut velocity = before;
+        if body.marks.has(Marks::FORCED) {
+            // What the game's forces add lies where the velocity goes now.
+            velocity = velocity.saturating_add(world.before[usize::from(slot)]);
+        }
+        world.before[usize::from(slot)] = before;
+        body.marks.clear(Marks::HELD_X.or(Marks::HELD_Y).or(Marks::GROUNDED).or(Marks::FORCED).or(Marks::FAST));
+        body.push = 0;
+        if !body.status.is_rigid() {
+            continue;
+        }
+        if pulls {
+            let scale = world.profiles[usize::from(slot)].gravity_scale;
+            let pull = if scale == S::ONE { gravity } else { gravity.map(|g| S::speed_scaled(g, scale)) };
+            velocity = velocity.saturating_add(pull);
+        }
+        if switches.on(Effects::DAMPING) {
+            velocity = velocity.map(|v| S::speed_scaled(v, damping));
+        }
+        if switches.on(Effects::SPEED_CAP) {
+            velocity = S::capped(velocity, cap);
+        }
+        body.velocity = velocity;
     }
 }
 
-/// Moves every rigid body by its velocity, which is first held within the speed limit.
+/// Moves every body by its velocity, which is first held within the speed limit.
 pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>) {
+    let averaged = world.config.level != Level::Flat;
+    let (mut farthest, mut fastest) = (S::Speed::ZERO, S::Speed::ZERO);
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
-        let velocity = body.velocity.map(|v| v.held(S::FASTEST));
-        if velocity != body.velocity {
-            body.velocity = velocity;
-            world.saturations = world.saturations.saturating_add(1);
+        let before = world.before[usize::from(slot)];
+        body.marks.clear(Marks::MOVED.or(Marks::JOLTED));
+        if body.velocity == Vec2::default() && before == Vec2::default() && body.push == 0 {
+            continue;
         }
-        body.position.x = S::advance(body.position.x, &mut body.remainder.x, velocity.x);
-        body.position.y = S::advance(body.position.y, &mut body.remainder.y, velocity.y);
+        if !S::is_tame(body.velocity, body.velocity, S::Speed::ZERO) {
+            hold(body, &mut world.saturations);
+        }
+        let velocity = body.velocity;
+        let mut motion = motion(body, before, averaged);
+        if body.push != 0 {
+            motion = motion.map(|v| S::uncut(v, body.push));
+            body.push = 0;
+        }
+        if body.advance(motion) {
+            body.marks.set(Marks::MOVED);
+        }
+        farthest = larger(farthest, motion);
+        fastest = larger(fastest, velocity);
+    }
+    world.fastest = fastest;
+    world.travel = world.travel.saturating_add(farthest);
+}
+
+/// The largest of a speed and a velocity's components. Nearly all are smaller than the largest so far: that is asked first.
+#[inline]
+pub(crate) fn larger<T: Quantity>(speed: T, velocity: Vec2<T>) -> T {
+    if velocity.x.is_within(speed) && velocity.y.is_within(speed) {
+        speed
+    } else {
+        speed.greater(velocity.x.abs()).greater(velocity.y.abs())
+    }
+}
+
+/// How far a body moves in this step, `before` being its velocity when the step began.
+#[inline]
+pub(crate) fn motion<S: Scalar>(body: &Body<S>, before: Vec2<S::Speed>, averaged: bool) -> Vec2<S::Speed> {
+    let mut motion = body.velocity;
+    if averaged && body.status.is_rigid() {
+        if !body.marks.has(Marks::HELD_X) {
+            motion.x = S::mean(before.x, motion.x);
+        }
+        if !body.marks.has(Marks::HELD_Y) {
+            motion.y = S::mean(before.y, motion.y);
+        }
+    }
+    motion
+}
+
+/// Holds a velocity within the speed limit, and counts if that changed it.
+#[cold]
+fn hold<S: Scalar>(body: &mut Body<S>, saturations: &mut u32) {
+    let velocity = body.velocity.map(|v| v.held(S::FASTEST));
+    if velocity != body.velocity {
+        body.velocity = velocity;
+        *saturations = saturations.saturating_add(1);
     }
 }

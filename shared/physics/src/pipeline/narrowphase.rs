@@ -1,99 +1,290 @@
 //! Whether and how two bodies touch: circle and circle, circle and box, box and box.
 //!
-//! Bodies that exactly touch are in contact, with penetration 0; boxes that share only a corner are not.
+//! Bodies that exactly touch are in contact, with a gap of 0; boxes that share only a corner are not. A contact is live before
+//! its bodies touch, from as far away as they may come in this step, so that the solver can stop them at the surface.
 
-use crate::body::{Body, Profile};
-use crate::contact::{Contact, Pool};
-use crate::scalar::{Quantity, Scalar};
+use crate::body::{Body, Marks};
+use crate::contact::{Axis, Contact, Flags};
+use crate::effects::{Effects, Switches};
+use crate::pipeline::order::Ground;
+use crate::pipeline::{one_way, terrain};
+use crate::scalar::{Quantity, Scalar, ratio};
 use crate::vec2::{Vec2, vec2};
+use crate::world::World;
 
-/// Unit normal from the first body to the second, and overlap along it.
+/// Overlap along the surface that two boxes need to block each other: less is the seam between two floors, not a wall.
+pub(crate) const GRAZE: ::fixed::types::I16F16 = ratio(1, 16);
+
+/// How far apart slow bodies may be and still be in contact, px.
+const MARGIN: ::fixed::types::I16F16 = ratio(1, 4);
+
+/// How two bodies lie: unit normal from the first to the second, and the distance along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Manifold<S: Scalar> {
     pub(crate) normal: Vec2<S::Unit>,
-    pub(crate) penetration: S::Real,
+    pub(crate) axis: Option<Axis>,
+    /// Negative = overlap.
+    pub(crate) gap: S::Real,
 }
 
-/// Adds a contact to the pool if the bodies touch and their layers meet.
-#[inline]
-pub(crate) fn touch<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>], pool: &mut Pool<'_, S>) {
-    let (first, second) = (&bodies[usize::from(a)], &bodies[usize::from(b)]);
-    let (own, other) = (&profiles[usize::from(a)], &profiles[usize::from(b)]);
-    if !own.meets(other) {
-        return;
+impl<S: Scalar> Manifold<S> {
+    pub(crate) fn along(axis: Axis, gap: S::Real) -> Self {
+        Self { normal: axis.normal::<S>(), axis: Some(axis), gap }
     }
-    let Some(Manifold { normal, penetration }) = collide(first, second) else {
-        return;
-    };
-    let approach = -S::speed_along(second.velocity.saturating_sub(first.velocity), normal);
-    let share = if second.status.is_static() { S::UNIT } else { S::mass_share(own.mass, other.mass) };
-    pool.push(Contact {
-        a,
-        b,
-        normal,
-        penetration,
-        approach: approach.greater(S::Speed::ZERO),
-        share,
-        restitution: own.restitution.lesser(other.restitution),
-        friction: own.friction.lesser(other.friction),
-        impulse: vec2(S::Speed::ZERO, S::Speed::ZERO),
-    });
 }
 
-/// How two bodies overlap; none if they don't touch.
+/// Looks again at every contact of a body that has moved.
+pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let ground = world.layers.ground();
+    let World { pool, bodies, terrain, .. } = world;
+    let mut with_terrain = false;
+    for contact in pool.all_mut() {
+        let (a, b) = (&bodies[usize::from(contact.a)], &bodies[usize::from(contact.b)]);
+        if !(a.marks.or(b.marks).has(Marks::MOVED) || contact.flags.has(Flags::NEW)) {
+            continue;
+        }
+        if switches.on(Effects::TILES) && contact.b == *terrain {
+            with_terrain = true;
+            continue;
+        }
+        contact.flags.forget_geometry();
+        let mut manifold = near(a, b);
+        if switches.on(Effects::ONE_WAY) && b.status.is_one_way() {
+            manifold = one_way::hold(&mut contact.flags, manifold, a, b, ground);
+        }
+        let Some(manifold) = manifold else {
+            leave(contact);
+            continue;
+        };
+        write(contact, &manifold, ground);
+        // No pass after this one looks at what is far: so sensors notice and never block, and cost no pass anything.
+        if switches.on(Effects::SENSORS) && contact.flags.has(Flags::SENSOR) {
+            contact.flags.set(Flags::FAR);
+        }
+    }
+    if with_terrain {
+        refresh_terrain(world, switches);
+    }
+}
+
+/// Looks again at the contacts with the tile map, body by body.
+fn refresh_terrain<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let ground = world.layers.ground();
+    let World { pool, bodies, terrain, tiles, .. } = world;
+    let mut complete = true;
+    for group in pool.all_mut().chunk_by_mut(|one, next| one.a == next.a && one.b == next.b) {
+        let body = &bodies[usize::from(group[0].a)];
+        let stale = body.marks.has(Marks::MOVED) || group.iter().any(|contact| contact.flags.has(Flags::NEW));
+        if group[0].b == *terrain && stale {
+            complete &= terrain::look(tiles, body, group, ground, switches);
+        }
+    }
+    if !complete {
+        world.layers.changed(false); // more room, in the next step
+    }
+}
+
+/// Takes over how the bodies lie.
 #[inline]
-pub(crate) fn collide<S: Scalar>(a: &Body<S>, b: &Body<S>) -> Option<Manifold<S>> {
+pub(crate) fn write<S: Scalar>(contact: &mut Contact<S>, manifold: &Manifold<S>, ground: Ground) {
+    contact.normal = manifold.normal;
+    contact.gap = S::per_step(manifold.gap);
+    contact.flags.set(flags(manifold, ground));
+}
+
+/// Notes that the bodies can't touch in this step.
+#[inline]
+pub(crate) fn leave<S: Scalar>(contact: &mut Contact<S>) {
+    contact.flags.forget_geometry();
+    contact.flags.set(Flags::FAR);
+    contact.gap = S::FASTEST;
+    contact.impulse = Vec2::default();
+}
+
+fn flags<S: Scalar>(manifold: &Manifold<S>, ground: Ground) -> Flags {
+    let mut flags = manifold.axis.map_or_else(Flags::default, Flags::along);
+    let down = ground.depth(manifold.normal);
+    if down >= S::unit_ratio(1, 5) {
+        flags.set(Flags::CONNECTS);
+        if down >= S::unit_ratio(1, 2) {
+            flags.set(Flags::BEARS);
+        }
+    }
+    flags
+}
+
+/// How two bodies lie; none if they can't touch in this step.
+#[inline]
+pub(crate) fn near<S: Scalar>(a: &Body<S>, b: &Body<S>) -> Option<Manifold<S>> {
     let offset = b.position - a.position;
+    let closing = (a.velocity.saturating_sub(b.velocity)).map(S::in_a_step);
     match (a.status.is_circle(), b.status.is_circle()) {
-        (true, true) => circles::<S>(offset, a.half.x + b.half.x),
-        (false, false) => boxes::<S>(offset, a.half + b.half),
-        (true, false) => circle_box::<S>(offset, a.half.x, b.half),
-        (false, true) => circle_box::<S>(-offset, b.half.x, a.half).map(|m| Manifold { normal: -m.normal, ..m }),
+        (true, true) => circles::<S>(offset, a.half.x + b.half.x, closing),
+        (false, false) => boxes::<S>(offset, a.half + b.half, closing),
+        (true, false) => circle_box::<S>(offset, a.half.x, b.half, closing),
+        (false, true) => circle_box::<S>(-offset, b.half.x, a.half, -closing).map(turned),
     }
+}
+
+/// As seen from the other body.
+fn turned<S: Scalar>(manifold: Manifold<S>) -> Manifold<S> {
+    let axis = manifold.axis.map(|axis| match axis {
+        Axis::Down => Axis::Up,
+        Axis::Up => Axis::Down,
+        Axis::Right => Axis::Left,
+        Axis::Left => Axis::Right,
+    });
+    Manifold { normal: -manifold.normal, axis, ..manifold }
+}
+
+/// How far apart bodies may be and still touch in this step.
+#[inline]
+pub(crate) fn reach<S: Scalar>(closing: Vec2<S::Real>) -> S::Real {
+    S::real(MARGIN) + closing.x.abs().greater(closing.y.abs())
 }
 
 /// Circles: along the line of centres. Equal centres part vertically, the first upwards.
-fn circles<S: Scalar>(offset: Vec2<S::Real>, reach: S::Real) -> Option<Manifold<S>> {
-    if !S::within(offset, reach) {
+#[inline(always)] // the commonest pair: as a call, detection costs a fifth more
+fn circles<S: Scalar>(offset: Vec2<S::Real>, touch: S::Real, closing: Vec2<S::Real>) -> Option<Manifold<S>> {
+    let limit = touch + reach::<S>(closing);
+    if !offset.x.is_within(limit) || !offset.y.is_within(limit) {
         return None;
     }
-    Some(match S::direction(offset) {
-        Some((normal, distance)) => Manifold { normal, penetration: (reach - distance).greater(S::Real::ZERO) },
-        None => Manifold { normal: vec2(S::Unit::ZERO, S::UNIT), penetration: reach },
-    })
+    let Some((normal, distance)) = S::direction(offset) else {
+        return Some(Manifold::along(Axis::Down, -touch));
+    };
+    if distance > limit {
+        return None;
+    }
+    let mut gap = distance - touch;
+    if gap > S::real(GRAZE) {
+        gap = leeway::<S>(offset, touch, closing, normal, gap);
+    }
+    Some(Manifold { normal, axis: along::<S>(normal), gap })
+}
+
+/// The axis that a normal lies on.
+#[inline]
+fn along<S: Scalar>(normal: Vec2<S::Unit>) -> Option<Axis> {
+    let zero = S::Unit::ZERO;
+    if normal.x == zero {
+        Some(if normal.y > zero { Axis::Down } else { Axis::Up })
+    } else if normal.y == zero {
+        Some(if normal.x > zero { Axis::Right } else { Axis::Left })
+    } else {
+        None
+    }
+}
+
+/// How far a circle of radius `touch` may come along the normal when it moves by `motion` past a point at `offset`: what it would
+/// do if that lets it pass but for a graze, else the gap.
+#[cold]
+#[inline(never)]
+pub(crate) fn leeway<S: Scalar>(
+    offset: Vec2<S::Real>,
+    touch: S::Real,
+    motion: Vec2<S::Real>,
+    normal: Vec2<S::Unit>,
+    gap: S::Real,
+) -> S::Real {
+    let towards = S::length_times(motion.x, normal.x) + S::length_times(motion.y, normal.y);
+    if towards <= gap {
+        return gap;
+    }
+    let Some((direction, _)) = S::direction(motion) else {
+        return gap;
+    };
+    let aside = S::length_times(offset.x, direction.y) - S::length_times(offset.y, direction.x);
+    if aside.abs() >= touch - S::real(GRAZE) { towards } else { gap }
 }
 
 /// Boxes: along the axis of least overlap, the vertical one if equal.
-fn boxes<S: Scalar>(offset: Vec2<S::Real>, reach: Vec2<S::Real>) -> Option<Manifold<S>> {
-    let overlap = vec2(reach.x - offset.x.abs(), reach.y - offset.y.abs());
-    let zero = S::Real::ZERO;
-    if overlap.x < zero || overlap.y < zero || (overlap.x == zero && overlap.y == zero) {
+#[inline]
+fn boxes<S: Scalar>(offset: Vec2<S::Real>, touch: Vec2<S::Real>, closing: Vec2<S::Real>) -> Option<Manifold<S>> {
+    let gap = vec2(offset.x.abs() - touch.x, offset.y.abs() - touch.y);
+    let reach = reach::<S>(closing);
+    if gap.x > reach || gap.y > reach {
         return None;
     }
-    Some(along_axis::<S>(offset, overlap))
-}
-
-/// The push along one axis that parts two boxes with the least motion.
-fn along_axis<S: Scalar>(offset: Vec2<S::Real>, overlap: Vec2<S::Real>) -> Manifold<S> {
-    if overlap.y <= overlap.x {
-        Manifold { normal: vec2(S::Unit::ZERO, signed::<S>(offset.y)), penetration: overlap.y }
-    } else {
-        Manifold { normal: vec2(signed::<S>(offset.x), S::Unit::ZERO), penetration: overlap.x }
+    let graze = -S::real(GRAZE);
+    if gap.x > graze && gap.y > graze {
+        return corner::<S>(offset, gap, closing);
     }
+    Some(if gap.y >= gap.x {
+        Manifold::along(vertical::<S>(offset), gap.y)
+    } else {
+        Manifold::along(horizontal::<S>(offset), gap.x)
+    })
 }
 
-fn signed<S: Scalar>(offset: S::Real) -> S::Unit {
-    if offset < S::Real::ZERO { -S::UNIT } else { S::UNIT }
+fn vertical<S: Scalar>(offset: Vec2<S::Real>) -> Axis {
+    if offset.y < S::Real::ZERO { Axis::Up } else { Axis::Down }
+}
+
+fn horizontal<S: Scalar>(offset: Vec2<S::Real>) -> Axis {
+    if offset.x < S::Real::ZERO { Axis::Left } else { Axis::Right }
+}
+
+/// Boxes that overlap, if at all, by no more than a graze on either axis. If they lie apart, they meet on the axis on which they
+/// come together last, or not at all.
+#[cold]
+fn corner<S: Scalar>(offset: Vec2<S::Real>, gap: Vec2<S::Real>, closing: Vec2<S::Real>) -> Option<Manifold<S>> {
+    let zero = S::Real::ZERO;
+    let towards = |offset: S::Real, closing: S::Real| if offset < zero { -closing } else { closing };
+    let (x, y) = (towards(offset.x, closing.x), towards(offset.y, closing.y));
+    if gap.x <= zero && gap.y <= zero && (gap.x < zero || gap.y < zero) {
+        // Whichever way they slide, they slide over each other.
+        let upright = if x > zero || y > zero { x >= y } else { gap.y >= gap.x };
+        return Some(if upright {
+            Manifold::along(vertical::<S>(offset), gap.y)
+        } else {
+            Manifold::along(horizontal::<S>(offset), gap.x)
+        });
+    }
+    if x <= zero || y <= zero {
+        return None;
+    }
+    // Times of meeting, gap / speed, compared without dividing: what overlaps by less than a graze then is a seam.
+    let graze = S::real(GRAZE);
+    let upright = if gap.x <= zero {
+        S::area(gap.y, x) > S::area(gap.x + graze, y)
+    } else {
+        S::area(gap.x, y) <= S::area(gap.y + graze, x)
+    };
+    Some(if upright {
+        Manifold::along(vertical::<S>(offset), gap.y)
+    } else {
+        Manifold::along(horizontal::<S>(offset), gap.x)
+    })
 }
 
 /// Circle and box: towards the box's point that is closest to the centre; from inside, out through the nearest face.
-fn circle_box<S: Scalar>(offset: Vec2<S::Real>, radius: S::Real, half: Vec2<S::Real>) -> Option<Manifold<S>> {
+#[inline(never)]
+fn circle_box<S: Scalar>(
+    offset: Vec2<S::Real>,
+    radius: S::Real,
+    half: Vec2<S::Real>,
+    closing: Vec2<S::Real>,
+) -> Option<Manifold<S>> {
+    let zero = S::Real::ZERO;
+    // From the centre to the closest point of the box.
     let closest = vec2(offset.x - offset.x.held(half.x), offset.y - offset.y.held(half.y));
-    if !S::within(closest, radius) {
-        return None;
+    if closest.x == zero && closest.y == zero {
+        let gap = vec2(offset.x.abs() - half.x, offset.y.abs() - half.y);
+        return Some(if gap.y >= gap.x {
+            Manifold::along(vertical::<S>(offset), gap.y - radius)
+        } else {
+            Manifold::along(horizontal::<S>(offset), gap.x - radius)
+        });
     }
-    Some(match S::direction(closest) {
-        Some((normal, distance)) => Manifold { normal, penetration: (radius - distance).greater(S::Real::ZERO) },
-        None => along_axis::<S>(offset, vec2(half.x - offset.x.abs() + radius, half.y - offset.y.abs() + radius)),
-    })
+    let reach = reach::<S>(closing);
+    if closest.x == zero {
+        let gap = closest.y.abs() - radius;
+        return (gap <= reach).then(|| Manifold::along(vertical::<S>(closest), gap));
+    }
+    if closest.y == zero {
+        let gap = closest.x.abs() - radius;
+        return (gap <= reach).then(|| Manifold::along(horizontal::<S>(closest), gap));
+    }
+    circles::<S>(closest, radius, closing)
 }

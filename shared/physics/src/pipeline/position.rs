@@ -1,25 +1,83 @@
 //! Overlap is pushed apart without touching velocities: a part of what exceeds the slop, each step (J. Baumgarte's
 //! stabilization, 1972, applied to positions).
+//!
+//! Above level Flat, the pass runs from the ground up as the shock of velocities does: what stands on firm ground alone gives way,
+//! along gravity, and how far each body was pushed is taken into account by those that stand on it. Overlap beyond the slop is
+//! corrected to half of it: else everything would rest on the threshold, and be pushed every other step.
 
+use crate::body::{Body, Marks, PUSH};
+use crate::config::Level;
+use crate::contact::{Contact, Flags};
+use crate::pipeline::order::Ground;
 use crate::scalar::{Quantity, Scalar};
 use crate::world::World;
 
 /// One pass over all contacts.
 pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>) {
-    let (slop, bias) = (world.config.slop, world.config.bias);
+    let slop = S::per_step(world.config.slop);
+    let bias = world.config.bias;
+    let ground = world.layers.ground();
+    let flat = world.config.level == Level::Flat;
+    let aim = if flat { slop } else { S::half_speed(slop) };
     for contact in world.pool.all() {
-        if contact.penetration <= slop {
+        if contact.flags.has(Flags::FAR) {
             continue;
         }
-        let correction = S::length_scaled(contact.penetration - slop, bias);
-        let apart = contact.normal.map(|n| S::length_times(correction, n));
-        let part = |share| apart.map(|length| S::length_times(length, share));
-        let a = &mut world.bodies[usize::from(contact.a)].position;
-        *a = a.saturating_sub(part(contact.share));
-        let other = contact.other_share();
-        if other != S::Unit::ZERO {
-            let b = &mut world.bodies[usize::from(contact.b)].position;
-            *b = b.saturating_add(part(other));
+        let pushed = pushed(contact, world.bodies, ground);
+        let depth = -(contact.gap + pushed);
+        if depth <= slop {
+            continue;
+        }
+        let correction = S::speed_scaled(depth - aim, bias);
+        let a = &world.bodies[usize::from(contact.a)];
+        let b = &world.bodies[usize::from(contact.b)];
+        let bears = contact.flags.has(Flags::BEARS) && !flat;
+        if bears && a.marks.has(Marks::GROUNDED) && (!b.status.is_rigid() || b.marks.has(Marks::GROUNDED)) {
+            lift(contact, correction, world.bodies, ground);
+        } else {
+            part(contact, correction, world.bodies, ground);
         }
     }
 }
+
+/// How far this pass has moved the bodies apart along the normal.
+#[inline]
+fn pushed<S: Scalar>(contact: &Contact<S>, bodies: &[Body<S>], ground: Ground) -> S::Speed {
+    let push = i32::from(bodies[usize::from(contact.b)].push) - i32::from(bodies[usize::from(contact.a)].push);
+    if push == 0 {
+        return S::Speed::ZERO;
+    }
+    S::speed_times(S::pushes(push), ground.depth(contact.normal))
+}
+
+/// Moves the upper body alone, away from the ground.
+fn lift<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Body<S>], ground: Ground) {
+    let along_gravity = if contact.flags.has(Flags::AXIS) {
+        correction
+    } else {
+        S::over_slope(correction, ground.depth(contact.normal))
+    };
+    let push = S::whole_pushes(along_gravity);
+    let body = &mut bodies[usize::from(contact.a)];
+    body.push = body.push.saturating_sub(push);
+    ground.lower(&mut body.position, -S::in_a_step(S::pushes(i32::from(push))));
+    body.marks.set(Marks::MOVED);
+}
+
+/// Moves both bodies along the normal, each by its share.
+fn part<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Body<S>], ground: Ground) {
+    let apart = contact.normal.map(|n| S::speed_times(correction, n));
+    let mut shift = |slot: u16, motion: crate::vec2::Vec2<S::Speed>| {
+        let body = &mut bodies[usize::from(slot)];
+        body.position = body.position.saturating_add(motion.map(S::in_a_step));
+        body.push = body.push.saturating_add(S::whole_pushes(ground.depth(motion)));
+        body.marks.set(Marks::MOVED);
+    };
+    shift(contact.a, -apart.map(|length| S::speed_times(length, contact.own_share())));
+    if !contact.flags.has(Flags::IMMOVABLE) {
+        let rest = S::UNIT - contact.share;
+        shift(contact.b, apart.map(|length| S::speed_times(length, rest)));
+    }
+}
+
+const _: () = assert!(PUSH == 1 << 12);

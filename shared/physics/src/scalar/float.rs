@@ -30,11 +30,14 @@ macro_rules! float_scalar {
             type Real = $float;
             type Speed = $float;
             type Unit = $float;
+            type Area = $float;
 
             const NAME: &'static str = $name;
             const ONE: $float = 1.0;
             const UNIT: $float = 1.0;
             const FASTEST: $float = SPEED_LIMIT as $float;
+
+            const MOST_IMPULSE: $float = SPEED_LIMIT as $float;
 
             fn real(value: I16F16) -> $float {
                 value.to_bits() as $float / 65_536.0
@@ -82,6 +85,106 @@ macro_rules! float_scalar {
             #[inline]
             fn mass_share(own: $float, other: $float) -> $float {
                 other / (own + other)
+            }
+            fn over_mass(value: $float, mass: $float, rate: u32) -> $float {
+                (value / (mass * rate as $float)).held(Self::FASTEST)
+            }
+
+            #[inline]
+            fn is_tame(_a: Vec2<$float>, _b: Vec2<$float>, _impulse: $float) -> bool {
+                true
+            }
+            #[inline]
+            fn is_negligible(change: Vec2<$float>) -> bool {
+                const LEAST: $float = 1.0 / 262_144.0;
+                change.x.abs() < LEAST && change.y.abs() < LEAST
+            }
+            #[inline]
+            fn into_frame(vector: Vec2<$float>, normal: Vec2<$float>) -> Vec2<$float> {
+                vec2(vector.x * normal.x + vector.y * normal.y, vector.y * normal.x - vector.x * normal.y)
+            }
+            #[inline]
+            fn out_of_frame(vector: Vec2<$float>, normal: Vec2<$float>) -> Vec2<$float> {
+                vec2(vector.x * normal.x - vector.y * normal.y, vector.x * normal.y + vector.y * normal.x)
+            }
+            #[inline]
+            fn tame_share(speed: $float, share: $float) -> $float {
+                speed * share
+            }
+            #[inline]
+            fn half_speed(speed: $float) -> $float {
+                speed * 0.5
+            }
+            #[inline]
+            fn coulomb(normal: $float, friction: u16) -> $float {
+                normal * (<$float>::from(friction) * (1.0 / 32_768.0))
+            }
+            #[inline]
+            fn over_slope(speed: $float, slope: $float) -> $float {
+                speed / slope
+            }
+            fn fallen(speed: $float, acceleration: $float, distance: $float) -> $float {
+                $sqrt((speed * speed + 2.0 * acceleration * distance).greater(0.0))
+            }
+            #[inline]
+            fn per_step(length: $float) -> $float {
+                length.held(100.0)
+            }
+            #[inline]
+            fn in_a_step(speed: $float) -> $float {
+                speed
+            }
+            #[inline]
+            fn unit_ratio(numerator: i8, denominator: i8) -> $float {
+                <$float>::from(numerator) / <$float>::from(denominator)
+            }
+            fn unit_from_number(number: u32) -> $float {
+                number as $float
+            }
+            fn number_of(unit: $float) -> u32 {
+                unit as u32
+            }
+            #[inline]
+            fn area(a: $float, b: $float) -> $float {
+                a * b
+            }
+            #[inline]
+            fn mean(a: $float, b: $float) -> $float {
+                (a + b) * 0.5
+            }
+            fn per_speed(part: $float, whole: $float) -> $float {
+                part / whole
+            }
+            fn cut(rest: $float) -> i16 {
+                let whole = i16::MAX as $float;
+                i16::MAX - (rest * whole) as i16
+            }
+            fn uncut(motion: $float, cut: i16) -> $float {
+                motion * ((i16::MAX - cut) as $float / i16::MAX as $float)
+            }
+            fn mean_velocity(velocities: impl Iterator<Item = Vec2<$float>>, count: u32) -> Vec2<$float> {
+                velocities.fold(Vec2::default(), |sum, v| sum + v).map(|sum| sum / count as $float)
+            }
+            fn mean_length(lengths: impl Iterator<Item = $float>, count: u32) -> $float {
+                lengths.fold(0.0, |sum, length| sum + length) / count as $float
+            }
+            fn capped(velocity: Vec2<$float>, cap: $float) -> Vec2<$float> {
+                let speed = $sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
+                if speed <= cap { velocity } else { velocity.map(|v| v / speed * cap) }
+            }
+            #[inline]
+            fn pushes(count: i32) -> $float {
+                count as $float / 4096.0
+            }
+            #[inline]
+            fn whole_pushes(length: $float) -> i16 {
+                (length.held(4.0) * 4096.0) as i16
+            }
+            fn in_65536ths(value: $float) -> i64 {
+                (value * 65_536.0) as i64
+            }
+            fn coefficient(value: $float) -> u16 {
+                (value * 32_768.0) as u16
             }
 
             #[inline]

@@ -1,12 +1,12 @@
 //! Columns of ten crates stand on a floor.
 
 use flat_physics::scalar::{px, ratio};
-use flat_physics::{BodyDef, Effects, Fixed, Level, Shape, vec2};
+use flat_physics::{BodyDef, Effects, Fixed};
 
-use super::{at, dull, wall};
-use crate::parameters::{Order, Parameters};
+use super::{COMMON, STANDING, at, body, dull, settled, square, usual, wall};
+use crate::parameters::{Mix, Parameters, Takes};
 use crate::promise::Promise;
-use crate::scene::{Capacity, Promises, Scene};
+use crate::scene::{Promises, Scene};
 
 const SIDE: i16 = 16;
 const HIGH: u16 = 10;
@@ -17,23 +17,29 @@ pub(crate) const SCENE: Scene = Scene {
     name: "crate_columns",
     purpose: "columns of ten crates that touch exactly stand on a floor",
     effects: Effects::GRAVITY.and(Effects::FRICTION),
-    steps: 600,
-    defaults: Parameters { bodies: 100, seed: 1, order: Order::Forward },
+    defaults: usual(100),
     bodies: 1..=1000,
-    capacity: |parameters| Capacity { bodies: parameters.bodies + 1, contacts: 3 * parameters.bodies + 16 },
-    body,
+    takes: Takes { mixes: &[Mix::Masses], ..Takes::ALL },
+    body: member,
     promises,
+    ..COMMON
 };
 
 /// Number 0 is the floor, its top at y = 0; then column by column, from the floor up.
-fn body(parameters: &Parameters, number: u16) -> BodyDef<Fixed> {
+fn member(parameters: &Parameters, number: u16) -> BodyDef<Fixed> {
     let material = dull(ratio(3, 10));
     if number == 0 {
         return wall((-PITCH, 0), (right(parameters), SIDE), material);
     }
-    let (column, level) = ((number - 1) / HIGH, (number - 1) % HIGH);
-    let position = at(PITCH * column as i16, -SIDE / 2 - SIDE * level as i16);
-    BodyDef { material, ..BodyDef::rigid(Shape::Box { half: vec2(px(SIDE / 2), px(SIDE / 2)) }, position) }
+    let (column, level) = (((number - 1) / HIGH) as i16, ((number - 1) % HIGH) as i16);
+    let gap = i16::from(parameters.variant.gap);
+    let position = at(PITCH * column, -gap - SIDE / 2 - (SIDE + gap) * level);
+    let mass = match parameters.variant.mix {
+        // 1 to 100.
+        Mix::Masses => px(1 + (parameters.jitter(number.into()).unsigned_abs() % 100) as i16),
+        _ => px(1),
+    };
+    BodyDef { mass, ..body(square(px(SIDE / 2)), position, material) }
 }
 
 fn right(parameters: &Parameters) -> i16 {
@@ -41,7 +47,13 @@ fn right(parameters: &Parameters) -> i16 {
 }
 
 /// A crate whose centre is past the middle of the floor would leave below.
-fn promises(parameters: &Parameters, _level: Level) -> Promises {
-    let max = at(right(parameters), 0);
-    Promises::from_iter([Promise::Within { min: at(-PITCH, -200), max, tolerance: px(SIDE) }])
+fn promises(parameters: &Parameters) -> Promises {
+    let gap = u32::from(parameters.variant.gap);
+    let from = settled(parameters, SCENE.gravity, u32::from(HIGH) * gap);
+    let top = -(HIGH as i16) * (SIDE + gap as i16);
+    Promises::from_iter([
+        Promise::Within { min: at(-PITCH, top), max: at(right(parameters), 0), tolerance: px(SIDE) },
+        Promise::Penetration { from, at_most: STANDING },
+        Promise::Still { from },
+    ])
 }

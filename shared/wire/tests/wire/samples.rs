@@ -4,10 +4,24 @@ use flat_wire::message::*;
 use proptest::prelude::*;
 
 pub(crate) const ORDERS: &[Order] = &[Order::Forward, Order::Reverse, Order::Shuffled];
-pub(crate) const LEVELS: &[Level] = &[Level::Flat];
+pub(crate) const LEVELS: &[Level] = &[Level::Flat, Level::Grounded, Level::Exact];
+pub(crate) const MIXES: &[Mix] = &[Mix::None, Mix::Sizes, Mix::Masses, Mix::Shapes];
+pub(crate) const PHASES: &[Phase] = &[Phase::Begin, Phase::Stay, Phase::End];
 pub(crate) const SCALARS: &[ScalarKind] = &[ScalarKind::Fixed, ScalarKind::F32, ScalarKind::F64];
 pub(crate) const DETAILS: &[Detail] = &[Detail::Digest, Detail::Positions, Detail::Full];
 pub(crate) const FLOWS: &[Flow] = &[Flow::Drop, Flow::Hold];
+pub(crate) const MISHAPS: &[Mishap] = &[
+    Mishap::Panic,
+    Mishap::IllegalInstruction,
+    Mishap::StackOverflow,
+    Mishap::PhysicsHangs,
+    Mishap::LinkHangs,
+    Mishap::Deaf,
+    Mishap::LogStorm,
+];
+pub(crate) const CAUSES: &[Cause] = &[Cause::PowerOn, Cause::Fault, Cause::Watchdog, Cause::Brownout, Cause::Host];
+pub(crate) const FAULTS: &[FaultKind] =
+    &[FaultKind::Panic, FaultKind::Exception, FaultKind::StackOverflow, FaultKind::Watchdog];
 pub(crate) const COUNTERS: &[Counter] = &[Counter::None, Counter::Instructions, Counter::Cycles, Counter::Nanoseconds];
 
 /// Where the values of a message come from.
@@ -112,6 +126,17 @@ impl Source {
                 order: self.pick(ORDERS),
                 level: self.pick(LEVELS),
                 scalar: self.pick(SCALARS),
+                iterations: self.option(Self::u8),
+                effects: self.option(Self::u16),
+                variant: Variant {
+                    mirrored: self.bool(),
+                    transposed: self.bool(),
+                    phase: self.u16(),
+                    shift: [self.i16(), self.i16()],
+                    gravity: self.option(Self::i16),
+                    gap: self.u8(),
+                    mix: self.pick(MIXES),
+                },
             }),
             Command::Stream(StreamRequest {
                 detail: self.pick(DETAILS),
@@ -119,6 +144,9 @@ impl Source {
                 contacts: self.bool(),
                 stage_digests: self.bool(),
                 stage_times: self.bool(),
+                timing: self.bool(),
+                events: self.bool(),
+                measures_every: self.u16(),
                 statistics_every: self.u16(),
                 flow: self.pick(FLOWS),
             }),
@@ -127,6 +155,8 @@ impl Source {
             Command::Status,
             Command::Watch(self.point()),
             Command::Flip(Flip { point: self.point(), body: self.u16(), bit: self.u8() }),
+            Command::Input { buttons: self.u8() },
+            Command::Provoke(self.pick(MISHAPS)),
         ]
     }
 
@@ -156,6 +186,10 @@ impl Source {
                 damaged: self.u32(),
                 dropped_detail: self.u32(),
                 dropped_steps: self.u32(),
+                late_us: self.u32(),
+                took_us: self.u32(),
+                overruns: self.u32(),
+                stack: Stack { size: self.u32(), peak: self.u32() },
             }),
         ]
     }
@@ -166,6 +200,7 @@ impl Source {
             Frame::Step { step: self.u32(), digest: self.u64() },
             Frame::StageDigests { step: self.u32(), digests: [(); STAGES].map(|()| self.u64()) },
             Frame::StageTimes { step: self.u32(), counts: [(); STAGES].map(|()| self.u32()) },
+            Frame::Timing { step: self.u32(), late_us: self.u32(), took_us: self.u32(), overruns: self.u32() },
             Frame::Bodies {
                 at: self.point(),
                 total: self.u16(),
@@ -191,6 +226,26 @@ impl Source {
                     impulse: [source.i64(), source.i64()],
                 }),
             },
+            Frame::Events {
+                step: self.u32(),
+                total: self.u16(),
+                events: self.list(|source| ContactEvent {
+                    phase: source.pick(PHASES),
+                    bodies: [source.u16(), source.u16()],
+                    tile: source.option(|source| [source.u16(), source.u16()]),
+                    sensor: source.bool(),
+                    normal: [source.i64(), source.i64()],
+                    impulse: source.i64(),
+                }),
+            },
+            Frame::Measures(Measures {
+                step: self.u32(),
+                kinetic: self.i64(),
+                potential: self.i64(),
+                momentum: [self.i64(), self.i64()],
+                penetration: self.i64(),
+                fastest: self.i64(),
+            }),
             Frame::Statistics(Statistics {
                 step: self.u32(),
                 contacts: self.u16(),
@@ -209,6 +264,15 @@ impl Source {
                 dropped_detail: self.u32(),
                 dropped_steps: self.u32(),
             },
+            Frame::Started(self.pick(CAUSES)),
+            Frame::Log { lost: self.u32(), bytes: self.list(Self::u8) },
+            Frame::Fault(Fault {
+                kind: self.pick(FAULTS),
+                uptime_us: self.u64(),
+                message: self.text(),
+                place: self.option(|source| Place { file: source.text(), line: source.u32() }),
+                backtrace: self.list(Self::u32),
+            }),
         ]
     }
 

@@ -3,14 +3,18 @@
 use std::fmt::Debug;
 use std::{env, fs, iter};
 
-use flat_wire::message::{Command, Counter, Detail, Event, Flow, Frame, Level, Order, Reply, ScalarKind};
+use flat_wire::message::{
+    Cause, Command, Counter, Detail, Event, FaultKind, Flow, Frame, Level, Mishap, Mix, Order, Phase, Reply, ScalarKind,
+};
 use flat_wire::{MAX_FRAME, MAX_MESSAGE, PROTOCOL_VERSION, encode};
 use postcard::experimental::serialized_size;
 use proptest::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::samples::{COUNTERS, DETAILS, FLOWS, LEVELS, ORDERS, SCALARS, Source};
+use crate::samples::{
+    CAUSES, COUNTERS, DETAILS, FAULTS, FLOWS, LEVELS, MISHAPS, MIXES, ORDERS, PHASES, SCALARS, Source,
+};
 
 fn bytes(message: &impl Serialize) -> Vec<u8> {
     let mut buffer = [0; 2 * MAX_FRAME];
@@ -39,6 +43,11 @@ fn samples_cover_every_variant() {
     assert_all_sampled::<Detail>("Detail", DETAILS);
     assert_all_sampled::<Flow>("Flow", FLOWS);
     assert_all_sampled::<Counter>("Counter", COUNTERS);
+    assert_all_sampled::<Mix>("Mix", MIXES);
+    assert_all_sampled::<Phase>("Phase", PHASES);
+    assert_all_sampled::<Cause>("Cause", CAUSES);
+    assert_all_sampled::<FaultKind>("FaultKind", FAULTS);
+    assert_all_sampled::<Mishap>("Mishap", MISHAPS);
 }
 
 #[test]
@@ -93,6 +102,11 @@ fn rendered() -> String {
         choices("Detail", DETAILS),
         choices("Flow", FLOWS),
         choices("Counter", COUNTERS),
+        choices("Mix", MIXES),
+        choices("Phase", PHASES),
+        choices("Cause", CAUSES),
+        choices("FaultKind", FAULTS),
+        choices("Mishap", MISHAPS),
     ]
     .concat()
 }

@@ -14,17 +14,23 @@ const MAX_SHIFT: u32 = 10;
 
 /// Reads `minstret`, whose unit is QEMU's choice: with `-icount shift=N` some versions count an instruction as `1 << N`
 /// (its nanoseconds), others as 1; without `-icount` it holds ticks of the host, which tell nothing.
-pub(crate) struct Stopwatch {
+pub(crate) struct StageCounter {
     /// Instructions to counts; none = the counts aren't instructions.
     shift: Option<u32>,
 }
 
-impl Stopwatch {
+impl StageCounter {
     /// Measures what the counter counts.
     pub(super) fn calibrate() -> Self {
         let first = sample();
         let steady = (1..SAMPLES).all(|_| sample() == first);
         Self { shift: (0..=MAX_SHIFT).find(|shift| steady && SAMPLE << shift == first) }
+    }
+
+    /// The count now; wraps.
+    pub(crate) fn count(&self) -> u32 {
+        // All 64 bits, so that what is left of them after the shift wraps at 2^32.
+        self.shift.map_or(0, |shift| (minstret::read64() >> shift) as u32)
     }
 
     /// What `count` counts.
@@ -33,13 +39,6 @@ impl Stopwatch {
             Some(_) => Counter::Instructions,
             None => Counter::None,
         }
-    }
-}
-
-impl flat_session::Stopwatch for Stopwatch {
-    fn count(&mut self) -> u32 {
-        // All 64 bits, so that what is left of them after the shift wraps at 2^32.
-        self.shift.map_or(0, |shift| (minstret::read64() >> shift) as u32)
     }
 }
 

@@ -1,0 +1,186 @@
+//! `rig advise`: the cheapest setting that meets stated tolerances on a scene, with the evidence.
+
+use std::time::Duration;
+
+use clap::Args;
+use console::style;
+
+use crate::cli::{LevelArg, MOST_STEPS, ScalarArg, seconds};
+use crate::error::Error;
+use crate::measure::evaluate::{Accuracy, Evaluator};
+use crate::measure::meter::unit_name;
+use crate::measure::{Clock, Cycles};
+use crate::profile::one_target;
+use crate::report::figures::{grouped, table};
+use crate::report::progress::overall;
+use crate::report::terminal;
+use crate::run;
+use crate::setting::Setting;
+use crate::target::qemu::Speed;
+use crate::target::reset::ResetArgs;
+use crate::target::{Means, Target};
+use crate::tradeoff::{Candidate, Comparison, bars, compare};
+
+/// Arguments of `rig advise`.
+#[derive(Debug, Args)]
+pub struct AdviseArgs {
+    /// Scenario
+    #[arg(value_name = "SCENARIO")]
+    scene: String,
+
+    /// Bodies in the scene [default: the scene's]
+    #[arg(long, value_name = "N")]
+    bodies: Option<u16>,
+
+    /// How much of what its promises allow the scene may use: 1 is all, 2 twice as much
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive)]
+    tolerance: f64,
+
+    /// Deepest overlap in the run's second half, px [default: what the promises say]
+    #[arg(long, value_name = "PX", value_parser = positive)]
+    overlap: Option<f64>,
+
+    /// Largest part of the time between two steps that the worst step may take at 160 MHz, %
+    #[arg(long, value_name = "PERCENT", value_parser = positive)]
+    load: Option<f64>,
+
+    /// Number formats to choose from, with commas between them
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [ScalarArg::Fixed])]
+    scalars: Vec<ScalarArg>,
+
+    /// Steps to run [default: the scene's]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_STEPS))]
+    steps: Option<u32>,
+
+    /// Where cost is measured: `qemu` counts instructions, a board cycles
+    #[arg(long, value_name = "TARGET", default_value = "qemu", value_parser = one_target)]
+    target: Target,
+
+    /// Longest wait for any sign of progress
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
+    timeout: Duration,
+
+    /// Whether to reset a board.
+    #[command(flatten)]
+    reset: ResetArgs,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number > 0.0)
+        .ok_or("must be a number above 0".into())
+}
+
+/// Passes that are tried at each level.
+const PASSES: [u8; 5] = [1, 2, 3, 4, 8];
+
+/// Looks for the cheapest; false if none meets the tolerances.
+///
+/// # Errors
+/// On wrong arguments, a target that cannot count or goes away, or Ctrl-C.
+pub fn run(arguments: &AdviseArgs) -> Result<bool, Error> {
+    let scene = run::find(&arguments.scene)?;
+    let reset = arguments.reset.choice();
+    let means = Means { elf: None, speed: Speed::Quiet, patience: arguments.timeout, reset };
+    let mut evaluator = Evaluator::open(&arguments.target, &means)?;
+    terminal::print_target(&evaluator.meter.identity);
+    let settings = settings(&arguments.scalars);
+    let bar = overall(settings.len());
+    let comparison = compare(&mut evaluator, scene, arguments.bodies, arguments.steps, &settings, &bar)?;
+    bar.finish_and_clear();
+    let cycles = Cycles::of(evaluator.meter.unit);
+    let wanted = Wanted { arguments, cycles: &cycles };
+    print(&comparison, &wanted, unit_name(evaluator.meter.unit));
+    Ok(comparison.candidates.iter().any(|candidate| wanted.missed(candidate).is_none()))
+}
+
+fn settings(scalars: &[ScalarArg]) -> Vec<Setting> {
+    let mut settings = Vec::new();
+    for level in [LevelArg::Flat, LevelArg::Grounded, LevelArg::Exact] {
+        for &scalar in scalars {
+            settings.extend(PASSES.map(|passes| Setting { level, scalar, iterations: Some(passes), effects: None }));
+        }
+    }
+    settings
+}
+
+/// What must hold.
+struct Wanted<'a> {
+    arguments: &'a AdviseArgs,
+    cycles: &'a Cycles,
+}
+
+impl Wanted<'_> {
+    /// The first tolerance that a candidate misses, in words; none if it meets all.
+    fn missed(&self, candidate: &Candidate) -> Option<String> {
+        let AdviseArgs { tolerance, overlap, load, .. } = *self.arguments;
+        let accuracy = &candidate.evaluation.accuracy;
+        if let Some(why) = broken(accuracy, tolerance) {
+            return Some(why);
+        }
+        if let (Some(limit), deepest) = (overlap, accuracy.deepest()) {
+            match deepest {
+                Some(deepest) if deepest <= limit => {}
+                Some(deepest) => return Some(format!("overlap {deepest:.3} px")),
+                None => return Some("overlap unknown".into()),
+            }
+        }
+        let part = 100.0 * self.cycles.load(candidate.evaluation.cost.worst as f64, Clock::USUAL[0]);
+        load.filter(|limit| part > *limit).map(|_| format!("{part:.1} % of 160 MHz"))
+    }
+}
+
+/// The promise that a run broke beyond a tolerance.
+fn broken(accuracy: &Accuracy, tolerance: f64) -> Option<String> {
+    match accuracy.worst() {
+        Some((finding, used)) if used > tolerance => Some(format!("{}: {}", finding.check, bars(used))),
+        // Promises that have no more or less are kept or not.
+        _ => accuracy
+            .findings
+            .iter()
+            .find(|finding| finding.used.is_none() && finding.outcome == flat_rig::check::Outcome::Failed)
+            .map(|finding| format!("{}: {}", finding.check, finding.got)),
+    }
+}
+
+fn print(comparison: &Comparison, wanted: &Wanted<'_>, unit: &str) {
+    let mut evidence =
+        table(&["setting", unit, "worst step", "error, x the bar", "overlap, px", "of 160 MHz", "misses"]);
+    for candidate in &comparison.candidates {
+        let (cost, accuracy) = (&candidate.evaluation.cost, &candidate.evaluation.accuracy);
+        let load = 100.0 * wanted.cycles.load(cost.worst as f64, Clock::USUAL[0]);
+        evidence.add_row([
+            candidate.name(),
+            grouped(cost.mean),
+            grouped(cost.worst as f64),
+            bars(candidate.error()).replace(" x the bar", ""),
+            accuracy.deepest().map_or_else(String::new, |deepest| format!("{deepest:.4}")),
+            format!("{load:.1} %"),
+            wanted.missed(candidate).unwrap_or_default(),
+        ]);
+    }
+    println!(
+        "{} {} bodies, {} steps\n{evidence}",
+        style(comparison.scene.name).bold(),
+        comparison.bodies,
+        comparison.steps
+    );
+    match comparison.candidates.iter().find(|candidate| wanted.missed(candidate).is_none()) {
+        Some(best) => {
+            let saved = comparison.candidates.iter().rev().find(|candidate| wanted.missed(candidate).is_none());
+            let dearest = saved.map_or(1.0, |dearest| dearest.evaluation.cost.mean / best.evaluation.cost.mean);
+            println!(
+                "{} {}: {} {unit} a step, the cheapest that meets every tolerance; the dearest that does takes {dearest:.1} times \
+                 as many",
+                style("use").green().bold(),
+                style(best.name()).bold(),
+                grouped(best.evaluation.cost.mean),
+            );
+        }
+        None => println!("{} meets every tolerance; the table says what each misses", style("no setting").red().bold()),
+    }
+    if wanted.cycles.estimated {
+        println!("cycles: {}", wanted.cycles.basis);
+    }
+}

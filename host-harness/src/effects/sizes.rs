@@ -1,0 +1,77 @@
+//! Games built for sets of effects: their bytes, and which functions of the engine only one effect brings.
+
+use std::collections::BTreeSet;
+
+use flat_physics::Effects;
+use indicatif::ProgressBar;
+
+use super::findings::{Build, EffectSize, Sizes};
+use crate::error::Error;
+use crate::firmware::elf::Image;
+use crate::measure::probe::{self, Program};
+
+/// The engine's functions, by the beginning of their names.
+const ENGINE: &str = "flat_physics::";
+
+/// Builds that [`measure`] makes.
+pub fn builds(effects: &[Effects]) -> usize {
+    2 + 2 * effects.len()
+}
+
+/// Builds and compares.
+///
+/// # Errors
+/// If something doesn't build.
+pub fn measure(effects: &[Effects], bar: &ProgressBar) -> Result<Sizes, Error> {
+    let (small, small_functions) = build(Effects::GRAVITY, bar)?;
+    let (all, all_functions) = build(Effects::ALL, bar)?;
+    let mut sizes = Sizes { small, all, effects: Vec::new() };
+    for &effect in effects {
+        // Gravity is in the smallest game: what it adds is seen from a game without.
+        let (with, without) = (Effects::GRAVITY.and(effect), Effects::GRAVITY.without(effect));
+        let added = if with == Effects::GRAVITY { build(without, bar)?.0 } else { build(with, bar)?.0 };
+        let to_small = if with == Effects::GRAVITY { small.above(added) } else { added.above(small) };
+        let (rest, rest_functions) = build(Effects::ALL.without(effect), bar)?;
+        let functions: Vec<String> = all_functions.difference(&rest_functions).cloned().collect();
+        let lingering = functions.iter().filter(|_| with != Effects::GRAVITY);
+        let lingering = lingering.filter(|function| small_functions.contains(*function)).cloned().collect();
+        let to_rest = all.above(rest);
+        sizes.effects.push(EffectSize { effect: effect.to_string(), to_small, to_rest, functions, lingering });
+    }
+    Ok(sizes)
+}
+
+/// One game: its bytes and the engine's functions in it, inlined ones included.
+fn build(effects: Effects, bar: &ProgressBar) -> Result<(Build, BTreeSet<String>), Error> {
+    bar.set_message(format!("a game with {effects}"));
+    let image = Image::read(&probe::build(Program::Game, Some(effects))?)?;
+    let places = image.places(|name| name.starts_with(ENGINE))?;
+    let functions = places.into_iter().map(|place| without_set(&place.function)).collect();
+    bar.inc(1);
+    let sizes = image.sizes;
+    Ok((Build { text: sizes.text + sizes.rodata, ram: sizes.data + sizes.bss }, functions))
+}
+
+/// A function's name without the set of effects that this copy of it is for, `Only<4095>`.
+fn without_set(name: &str) -> String {
+    match name.split_once("Only<") {
+        Some((before, after)) => {
+            let rest = after.split_once('>').map_or("", |(_, rest)| rest);
+            format!("{before}Only{rest}")
+        }
+        None => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn copies_for_other_sets_go_by_one_name() {
+        let name =
+            |set| without_set(&format!("flat_physics::step::step<fixed::Fixed, flat_physics::effects::Only<{set}>>"));
+        assert_eq!(name("4095"), name("1"));
+        assert_eq!(without_set("flat_physics::pipeline::ccd::stop<f32>"), "flat_physics::pipeline::ccd::stop<f32>");
+    }
+}

@@ -1,0 +1,6 @@
+//! What `rig` checks, for the tests that check it without a target.
+#![deny(missing_docs)]
+
+pub mod check;
+pub mod number;
+pub mod variant;

@@ -1,0 +1,122 @@
+//! One scene computed in one way: what it costs on a target, and how far from right it is.
+//!
+//! The mock runs it with the full state of every step, the target with its counter. Equal digests make the two one run, so
+//! that the target's cost and the mock's errors belong together.
+
+use flat_rig::check::{Finding, Outcome, Series};
+
+use super::meter::Meter;
+use super::sample::Sample;
+use super::summary::Summary;
+use crate::client::Client;
+use crate::error::{Error, Kind};
+use crate::job::Job;
+use crate::observe::Observer;
+use crate::setting::Setting;
+use crate::target::{Means, Target};
+use crate::trace::Trace;
+
+/// How far from right a run was.
+#[derive(Clone, Debug)]
+pub struct Accuracy {
+    /// What became of each of the scene's promises.
+    pub findings: Vec<Finding>,
+    /// Overlap and energy after each step.
+    pub series: Series,
+    /// Digest of the final state.
+    pub digest: u64,
+}
+
+/// Cost and error of one setting.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// How it was computed.
+    pub setting: Setting,
+    /// Counts of a step.
+    pub cost: Summary,
+    /// How far from right it was.
+    pub accuracy: Accuracy,
+}
+
+/// The two that an evaluation takes.
+pub struct Evaluator {
+    mock: Client,
+    /// Who counts.
+    pub meter: Meter,
+}
+
+impl Evaluator {
+    /// Opens the mock and a target.
+    ///
+    /// # Errors
+    /// As [`Meter::open`].
+    pub fn open(target: &Target, means: &Means) -> Result<Self, Error> {
+        let (mock, _) = Client::connect(Target::Mock.open(means)?, Target::Mock.label(), means.patience)?;
+        Ok(Self { mock, meter: Meter::open(target, means)? })
+    }
+
+    /// How far from right a job is.
+    ///
+    /// # Errors
+    /// If the mock refuses the scene.
+    pub fn accuracy(&mut self, job: &Job) -> Result<Accuracy, Error> {
+        let mut observer = Observer::recording(job);
+        let trace = Trace::record(&mut self.mock, job, observer.stream(), None, |frame| observer.take(frame))?;
+        // The first finding is about the link, not about the scene.
+        let findings = observer.findings().split_off(1);
+        Ok(Accuracy { findings, series: observer.series(), digest: trace.end.digest })
+    }
+
+    /// Cost and error of a job; none if the target has no room for it.
+    ///
+    /// # Errors
+    /// If a target goes away, or if the two don't end with the same bits.
+    pub fn evaluate(&mut self, job: &Job, setting: &Setting) -> Result<Option<Evaluation>, Error> {
+        let sample = match self.meter.measure(job) {
+            Ok(sample) => sample,
+            Err(error) if error.kind() == Kind::Refused => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let accuracy = self.accuracy(job)?;
+        if accuracy.digest != sample.digest {
+            let (name, scene) = (&self.meter.identity.label, job.scene.name);
+            return Err(Error::new(
+                Kind::Refused,
+                format!(
+                    "{scene}, {setting}: {name} and the mock end with different bits, so that cost and error don't belong together"
+                ),
+                format!("cargo rig run {scene} --target mock,{name}"),
+            ));
+        }
+        Ok(Some(Evaluation { setting: *setting, cost: sample.total(), accuracy }))
+    }
+}
+
+impl Accuracy {
+    /// The promise that used most of what it is allowed, and how much: 1 = just held.
+    pub fn worst(&self) -> Option<(&Finding, f64)> {
+        let used = self.findings.iter().filter_map(|finding| Some((finding, finding.used?)));
+        used.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// How much the worst promise used; 0 if none has a measure.
+    pub fn error(&self) -> f64 {
+        self.worst().map_or(0.0, |(_, used)| used)
+    }
+
+    /// Promises that failed.
+    pub fn failed(&self) -> usize {
+        self.findings.iter().filter(|finding| finding.outcome == Outcome::Failed).count()
+    }
+
+    /// Promises that held.
+    pub fn held(&self) -> usize {
+        self.findings.iter().filter(|finding| finding.outcome == Outcome::Held).count()
+    }
+
+    /// Deepest overlap of the run's second half, px; none if no step was seen.
+    pub fn deepest(&self) -> Option<f64> {
+        let overlap = &self.series.overlap;
+        overlap[Sample::window(overlap.len())].iter().copied().reduce(f64::max)
+    }
+}

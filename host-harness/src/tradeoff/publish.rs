@@ -1,0 +1,73 @@
+//! The committed copy: docs/tradeoff.svg, and a table between two marks in the README.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use super::Context;
+use super::findings::{Comparison, bars};
+use super::page::error_against_cost;
+use crate::error::Error;
+use crate::firmware::workspace;
+use crate::report::figures::grouped;
+use crate::report::marks;
+use crate::report::plot::Plot;
+
+/// The plot, relative to the root.
+const PLOT: &str = "docs/tradeoff.svg";
+/// The marks' name.
+const MARK: &str = "tradeoff";
+
+/// Writes both.
+///
+/// # Errors
+/// If a file cannot be written, or the README has no such marks.
+pub fn publish(comparisons: &[Comparison], context: &Context) -> Result<(), Error> {
+    let root = workspace::root()?;
+    let plots: Vec<Plot> = comparisons.iter().map(|comparison| error_against_cost(comparison, context)).collect();
+    write(&root.join(PLOT), &Plot::file(&plots))?;
+    let readme = root.join("README.md");
+    let text = fs::read_to_string(&readme).map_err(|error| failed(&readme, &error))?;
+    write(&readme, &marks::replace(&text, MARK, &table(comparisons, context))?)?;
+    println!("{PLOT} and the README's table are written");
+    Ok(())
+}
+
+/// One line a scene and setting worth its cost, and what it takes to keep every promise.
+fn table(comparisons: &[Comparison], context: &Context) -> String {
+    let mut text = format!(
+        "| scene | setting | {} a step | worst promise, x its bar | promises held |\n|---|---|--:|--:|--:|\n",
+        context.unit
+    );
+    for comparison in comparisons {
+        for candidate in comparison.candidates.iter().filter(|candidate| candidate.on_front) {
+            let accuracy = &candidate.evaluation.accuracy;
+            let _ = writeln!(
+                text,
+                "| {} {} | {} | {} | {} | {} of {} |",
+                comparison.scene.name,
+                comparison.bodies,
+                candidate.name(),
+                grouped(candidate.evaluation.cost.mean),
+                bars(candidate.error()).replace(" x the bar", ""),
+                accuracy.held(),
+                accuracy.findings.len(),
+            );
+        }
+    }
+    let _ = write!(
+        text,
+        "\nMeasured {}, cost on {}; made by `cargo rig tradeoff --publish`.",
+        context.provenance, context.target
+    );
+    text
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+    made.and_then(|()| fs::write(path, text)).map_err(|error| failed(path, &error))
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Error {
+    Error::usage(format!("{}: {error}", path.display()), "run it from a source tree that you may write to")
+}

@@ -1,0 +1,314 @@
+//! Continuous collision detection: no body passes through another, however fast.
+//!
+//! Before bodies move, each that would move by more than a part of its own size is swept along its motion, relative to that of
+//! the other, against everything that the broadphase paired it with, and against the tiles. It stops where it first meets
+//! something and keeps its velocity: the next step finds it at the surface, and solves the contact there.
+//!
+//! The pairs are those of the motion that the step began with. A body that has bounced, was pushed, or stops on its way moves
+//! otherwise: it is swept against whatever is near, round by round until nobody is stopped any more.
+
+use crate::body::{Body, Marks};
+use crate::config::Level;
+use crate::contact::{Axis, Contact, Flags};
+use crate::effects::{Effects, Switches};
+use crate::geometry::{Bounds, Hit, Outline, along, cast, without};
+use crate::pipeline::order::Ground;
+use crate::pipeline::{grid, integrate, one_way, terrain};
+use crate::scalar::{Exact, Quantity, Scalar, ratio};
+use crate::tiles::Tile;
+use crate::vec2::Vec2;
+use crate::world::World;
+
+/// A mover is swept as if it were smaller by this on all sides, px: so it slides over the seams between floors on which it rests
+/// within the slop, and grazes corners.
+const SKIN: ::fixed::types::I16F16 = ratio(1, 32);
+/// Depth from which on a contact is held back, px.
+const DEEP: ::fixed::types::I16F16 = ratio(-1, 4);
+/// Most rounds in which bodies stop each other: a row of so many is stopped in good order.
+const ROUNDS: usize = 16;
+/// Tiles along which one sweep slides: a floor and a wall, before it stops at the next.
+const SURFACES: usize = 3;
+
+/// Cuts the motions of fast bodies short; [`Body::push`] says by how much until they have moved.
+pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let exact = world.config.level == Level::Exact;
+    if !switches.on(Effects::CCD) && !exact {
+        return;
+    }
+    hold_back(world);
+    let threshold = if exact { S::Real::ZERO } else { world.config.ccd_threshold };
+    let (mut fast, mut swift) = (false, false);
+    for place in 0..world.layers.dynamics().len() {
+        let slot = world.layers.dynamics()[place];
+        let speed = mark(slot, threshold, world);
+        fast |= speed != Pace::Slow;
+        swift |= speed == Pace::Swift;
+    }
+    if !fast {
+        return;
+    }
+    if switches.on(Effects::TILES) && !world.tiles.is_empty() {
+        for place in 0..world.layers.dynamics().len() {
+            let slot = world.layers.dynamics()[place];
+            sweep_tiles(slot, world, switches);
+        }
+    }
+    for _ in 0..ROUNDS {
+        let mut stopped = sweep_pairs(world, switches);
+        let count = if swift { world.layers.dynamics().len() } else { 0 };
+        for place in 0..count {
+            let slot = world.layers.dynamics()[place];
+            let marks = &mut world.bodies[usize::from(slot)].marks;
+            if marks.has(Marks::JOLTED) {
+                marks.clear(Marks::JOLTED);
+                stopped |= sweep_around(slot, world, switches);
+            }
+        }
+        if !stopped {
+            break;
+        }
+    }
+}
+
+/// What is pressed deep into something immovable, however slowly, is pressed no further than to its centre.
+fn hold_back<S: Scalar>(world: &mut World<'_, S>) {
+    let deep = S::per_step(S::real(DEEP));
+    for place in 0..world.pool.all().len() {
+        let contact = world.pool.all()[place];
+        let flags = contact.flags;
+        if contact.gap >= deep || !flags.has(Flags::IMMOVABLE) || flags.has(Flags::FAR) {
+            continue;
+        }
+        let motion = motion(contact.a, world);
+        let body = &mut world.bodies[usize::from(contact.a)];
+        let into = S::in_a_step(S::speed_along(motion, contact.normal));
+        let room = (least(body) - S::in_a_step(-contact.gap)).greater(S::Real::ZERO);
+        if into > room {
+            cut(body, motion.map(S::in_a_step), room.fraction_of(into));
+        }
+    }
+}
+
+/// Sweeps the pairs of which at least one is fast; whether that stopped anybody.
+fn sweep_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) -> bool {
+    let mut stopped = false;
+    for place in 0..world.pool.all().len() {
+        let contact = world.pool.all()[place];
+        if contact.b == world.terrain || contact.has_parted() {
+            continue;
+        }
+        let [a, b] = [contact.a, contact.b].map(|slot| world.bodies[usize::from(slot)].marks);
+        if a.or(b).has(Marks::FAST) {
+            match sweep(contact.a, contact.b, contact.flags, world, switches) {
+                Outcome::Free => {}
+                Outcome::Noticed => world.pool.all_mut()[place].flags.set(Flags::BOUNCED),
+                Outcome::Stopped => stopped = true,
+            }
+        }
+    }
+    stopped
+}
+
+/// What a sweep leads to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Free,
+    /// One is a sensor, and meets the other.
+    Noticed,
+    /// One is stopped earlier than before.
+    Stopped,
+}
+
+/// How fast a body is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pace {
+    Slow,
+    /// To be swept against its pairs.
+    Fast,
+    /// Fast enough to get past something that it wasn't paired with.
+    Swift,
+}
+
+/// Marks a fast body, and as jolted one whose motion isn't that for which pairs were found.
+fn mark<S: Scalar>(slot: u16, threshold: S::Real, world: &mut World<'_, S>) -> Pace {
+    let motion = motion(slot, world);
+    let before = world.before[usize::from(slot)];
+    let body = &mut world.bodies[usize::from(slot)];
+    let least = S::per_step(least(body));
+    let longest = |v: Vec2<S::Speed>| v.x.abs().greater(v.y.abs());
+    if longest(motion.saturating_sub(before)) > least {
+        body.marks.set(Marks::JOLTED);
+    }
+    if !body.status.collides() || longest(motion) <= S::speed_scaled(least, threshold) {
+        return Pace::Slow;
+    }
+    body.marks.set(Marks::FAST);
+    if longest(motion) > least { Pace::Swift } else { Pace::Fast }
+}
+
+/// Half of a body's shorter side: what moves by less leaves its centre on the near side of whatever it meets.
+fn least<S: Scalar>(body: &Body<S>) -> S::Real {
+    body.half.x.lesser(body.half.y)
+}
+
+/// Sweeps a body against all that is near its way; whether that stopped anybody.
+fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl Switches) -> bool {
+    let mut stopped = false;
+    let mut place = 0;
+    while let Some(&other) = world.layers.dynamics().get(place) {
+        place += 1;
+        let marks = world.bodies[usize::from(slot)].marks.or(world.bodies[usize::from(other)].marks);
+        if other != slot && marks.has(Marks::FAST) {
+            stopped |= sweep(slot, other, Flags::default(), world, switches) == Outcome::Stopped;
+        }
+    }
+    let (outline, motion) = (Outline::of(&world.bodies[usize::from(slot)]), motion(slot, world).map(S::in_a_step));
+    let way = Bounds::swept(&outline, motion);
+    let way = grid::Bounds { min: way.min, max: way.max };
+    let World { bodies, profiles, layers, .. } = world;
+    let mut body = bodies[usize::from(slot)];
+    if !body.status.is_rigid() || !body.marks.has(Marks::FAST) {
+        return stopped;
+    }
+    layers.statics().visit(&way, bodies, &mut |other| {
+        let target = &bodies[usize::from(other)];
+        let solid = !body.status.is_sensor() && !target.status.is_sensor() && target.status.collides();
+        if solid && profiles[usize::from(slot)].meets(&profiles[usize::from(other)]) {
+            let platform = switches.on(Effects::ONE_WAY) && target.status.is_one_way();
+            if let Some(hit) = cast(&inner(&body), motion, &Outline::of(target))
+                && (!platform || lands(&hit, &body, target, layers.ground()))
+                && let Some(time) = stop(&body, motion, &hit)
+            {
+                stopped |= cut(&mut body, motion, time);
+            }
+        }
+    });
+    world.bodies[usize::from(slot)] = body;
+    stopped
+}
+
+/// Cuts the motions of a pair that would meet on its way, of which at least one is fast.
+fn sweep<S: Scalar>(a: u16, b: u16, flags: Flags, world: &mut World<'_, S>, switches: impl Switches) -> Outcome {
+    let ground = world.layers.ground();
+    let [motion_a, motion_b] = [a, b].map(|slot| motion(slot, world));
+    let relative = motion_a.saturating_sub(motion_b).map(S::in_a_step);
+    let [first, second] = [a, b].map(|slot| &world.bodies[usize::from(slot)]);
+    let meet = world.profiles[usize::from(a)].meets(&world.profiles[usize::from(b)]);
+    let near = Bounds::swept(&Outline::of(first), relative).touch(&Bounds::of(&Outline::of(second)));
+    if !meet || !near || !second.status.collides() || !(first.status.is_rigid() || second.status.is_rigid()) {
+        return Outcome::Free;
+    }
+    let Some(hit) = cast(&inner(first), relative, &Outline::of(second)) else {
+        return Outcome::Free;
+    };
+    if first.status.is_sensor() || second.status.is_sensor() {
+        return if switches.on(Effects::SENSORS) { Outcome::Noticed } else { Outcome::Free };
+    }
+    if switches.on(Effects::ONE_WAY) {
+        let dropped = flags.has(Flags::IMMOVABLE) && flags.has(Flags::DROPPED);
+        let turned = Hit { normal: -hit.normal, ..hit };
+        let passes = |hit: &Hit<S>, mover: &Body<S>, platform: &Body<S>| {
+            platform.status.is_one_way() && (dropped || !lands(hit, mover, platform, ground))
+        };
+        if passes(&hit, first, second) || passes(&turned, second, first) {
+            return Outcome::Free;
+        }
+    }
+    let pressed = if first.status.is_rigid() { first } else { second };
+    let mut outcome = Outcome::Free;
+    if let Some(time) = stop(pressed, relative, &hit) {
+        for (slot, motion) in [(a, motion_a), (b, motion_b)] {
+            let body = &mut world.bodies[usize::from(slot)];
+            let is_cut = body.marks.has(Marks::FAST) && body.status.is_rigid();
+            if is_cut && cut(body, motion.map(S::in_a_step), time) {
+                outcome = Outcome::Stopped;
+            }
+        }
+    }
+    outcome
+}
+
+/// Whether a platform holds what meets it so.
+fn lands<S: Scalar>(hit: &Hit<S>, mover: &Body<S>, platform: &Body<S>, ground: Ground) -> bool {
+    let above = one_way::above(mover, platform, ground);
+    hit.depth == S::Real::ZERO && one_way::comes_from_above::<S>(-hit.normal, above, ground)
+}
+
+/// Cuts the motion of a body that would meet a tile.
+fn sweep_tiles<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl Switches) {
+    let body = &world.bodies[usize::from(slot)];
+    let meets = world.profiles[usize::from(slot)].meets(&world.profiles[usize::from(world.terrain)]);
+    if !body.marks.has(Marks::FAST) || !body.status.is_rigid() || body.status.is_sensor() || !meets {
+        return;
+    }
+    let whole = motion(slot, world).map(S::in_a_step);
+    let mut motion = whole;
+    let mut stopped: Option<S::Unit> = None;
+    for _ in 0..SURFACES {
+        let counts =
+            |tile: Tile| tile.flags.is_solid() || (switches.on(Effects::ONE_WAY) && may_hold(tile, slot, world));
+        let Some(met) = world.tiles.cast(&inner(body), motion, counts) else {
+            break;
+        };
+        if let Some(time) = stop(body, motion, &met.hit) {
+            stopped = Some(stopped.map_or(time, |stopped| if time < stopped { time } else { stopped }));
+        }
+        if met.hit.depth == S::Real::ZERO {
+            break;
+        }
+        motion = without::<S>(motion, met.hit.normal); // what lies behind the surface that it is pressed into
+    }
+    if let Some(time) = stopped {
+        cut(&mut world.bodies[usize::from(slot)], whole, time);
+    }
+}
+
+/// Whether a one-way tile may hold a body: where down is down, and it doesn't let that body through.
+fn may_hold<S: Scalar>(tile: Tile, slot: u16, world: &World<'_, S>) -> bool {
+    let lets_through = |contact: &Contact<S>| {
+        contact.a == slot
+            && contact.b == world.terrain
+            && contact.flags.has(Flags::DROPPED)
+            && terrain::tile(&world.tiles, contact)[1] == tile.row
+    };
+    world.layers.ground().axis() == Axis::Down && !world.pool.all().iter().any(lets_through)
+}
+
+/// A body that is swept, smaller by a skin.
+fn inner<S: Scalar>(body: &Body<S>) -> Outline<S> {
+    let outline = Outline::of(body);
+    let skin = S::real(SKIN).lesser(S::half(least(body)));
+    Outline { half: outline.half.map(|half| half - skin), ..outline }
+}
+
+/// The part of a motion that is left to a body that meets something. If they overlap already, it may be pressed in until its
+/// centre is at the surface; none if it may move on.
+fn stop<S: Scalar>(body: &Body<S>, motion: Vec2<S::Real>, hit: &Hit<S>) -> Option<S::Unit> {
+    let zero = S::Real::ZERO;
+    if hit.depth == zero {
+        return Some(hit.time);
+    }
+    let into = -along::<S>(motion, hit.normal);
+    let room = (least(body) - hit.depth).greater(zero);
+    (into > room).then(|| room.fraction_of(into))
+}
+
+/// How far a body would move in this step.
+fn motion<S: Scalar>(slot: u16, world: &World<'_, S>) -> Vec2<S::Speed> {
+    let body = &world.bodies[usize::from(slot)];
+    let motion = integrate::motion(body, world.before[usize::from(slot)], world.config.level != Level::Flat);
+    if body.push == 0 { motion } else { motion.map(|speed| S::uncut(speed, body.push)) }
+}
+
+/// Leaves a part of what is left of a body's motion. Whether so much is lost that who follows close may run into it; or, if it is
+/// as much as half of the body, who follows from further away.
+fn cut<S: Scalar>(body: &mut Body<S>, motion: Vec2<S::Real>, time: S::Unit) -> bool {
+    let whole = i32::from(i16::MAX);
+    let rest = (whole - i32::from(body.push)) * (whole - i32::from(S::cut(time))) / whole;
+    body.push = (whole - rest) as i16;
+    let lost = S::length_times(motion.x.abs().greater(motion.y.abs()), S::UNIT - time);
+    if lost > least(body) {
+        body.marks.set(Marks::JOLTED);
+    }
+    lost > S::real(SKIN)
+}

@@ -1,0 +1,98 @@
+//! Which way is down, and bodies in that order: from the ground up.
+
+use crate::body::Body;
+use crate::scalar::{Quantity, Scalar};
+use crate::vec2::Vec2;
+
+/// The axis along which gravity pulls hardest: where the ground is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Ground {
+    horizontal: bool,
+    reversed: bool,
+}
+
+impl Ground {
+    /// Without gravity, the ground is below.
+    pub(crate) fn of<T: Quantity>(gravity: Vec2<T>) -> Self {
+        let horizontal = gravity.x.abs() > gravity.y.abs();
+        let pull = if horizontal { gravity.x } else { gravity.y };
+        Self { horizontal, reversed: pull < T::ZERO }
+    }
+
+    pub(crate) fn is_horizontal(self) -> bool {
+        self.horizontal
+    }
+
+    pub(crate) fn is_reversed(self) -> bool {
+        self.reversed
+    }
+
+    /// Component towards the ground.
+    #[inline]
+    pub(crate) fn depth<T: Quantity>(self, v: Vec2<T>) -> T {
+        let along = if self.horizontal { v.x } else { v.y };
+        if self.reversed { -along } else { along }
+    }
+
+    /// Component along the ground.
+    #[inline]
+    pub(crate) fn across<T: Quantity>(self, v: Vec2<T>) -> T {
+        if self.horizontal { v.y } else { v.x }
+    }
+
+    /// Adds to the component towards the ground.
+    #[inline]
+    pub(crate) fn lower<T: Quantity>(self, v: &mut Vec2<T>, by: T) {
+        let along = if self.horizontal { &mut v.x } else { &mut v.y };
+        *along = if self.reversed { along.saturating_sub(by) } else { along.saturating_add(by) };
+    }
+}
+
+/// Gaps of a Shell sort (M. Ciura, 2001).
+const GAPS: [usize; 8] = [701, 301, 132, 57, 23, 10, 4, 1];
+
+/// Sorts a list in any order.
+pub(crate) fn sort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
+    for gap in GAPS {
+        insert(list, bodies, ground, gap);
+    }
+}
+
+/// Sorts a list that was sorted not long ago.
+pub(crate) fn resort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
+    insert(list, bodies, ground, 1);
+}
+
+/// One pass of insertion sort over every `gap`-th entry.
+fn insert<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground, gap: usize) {
+    for start in gap..list.len() {
+        let slot = list[start];
+        let mut place = start;
+        while place >= gap && precedes(slot, list[place - gap], bodies, ground) {
+            list[place] = list[place - gap];
+            place -= gap;
+        }
+        list[place] = slot;
+    }
+}
+
+/// From the lowest centre up, equal ones from left to right, then the lower ones, those by slot: a total order.
+#[inline]
+pub(crate) fn precedes<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], ground: Ground) -> bool {
+    let (first, second) = (&bodies[usize::from(a)], &bodies[usize::from(b)]);
+    let (low, high) = (ground.depth(first.position), ground.depth(second.position));
+    if low == high { breaks_tie(a, b, first, second, ground) } else { low > high }
+}
+
+#[cold]
+fn breaks_tie<S: Scalar>(a: u16, b: u16, first: &Body<S>, second: &Body<S>, ground: Ground) -> bool {
+    let (left, right) = (ground.across(first.position), ground.across(second.position));
+    if left != right {
+        return left < right;
+    }
+    let (small, large) = (ground.depth(first.half).abs(), ground.depth(second.half).abs());
+    if small != large {
+        return small < large;
+    }
+    a < b
+}

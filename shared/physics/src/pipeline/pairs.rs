@@ -1,0 +1,221 @@
+//! The pool of contacts, kept from step to step: pairs that come near are added, pairs that part are dropped, and all lie in
+//! groups, one an upper body, in the order of the bodies.
+
+use super::order::{self, Ground};
+use super::terrain;
+use crate::body::{Body, Profile};
+use crate::contact::{Contact, Flags, Pool};
+use crate::scalar::{Quantity, Scalar};
+
+/// Marks a body without a group, and the end of a list.
+pub(crate) const NONE: u16 = u16::MAX;
+
+/// An update of the pool: pairs that nobody notes are dropped at its end.
+pub(crate) struct Update<'p, 'a, S: Scalar> {
+    pool: &'p mut Pool<'a, S>,
+    /// First contact of each body's group, by slot.
+    groups: &'p mut [u16],
+    /// Contacts that were there before.
+    old: usize,
+    kept: usize,
+    /// Whether a pair is new or has turned around: else the groups may stay as they lie.
+    regroup: bool,
+}
+
+impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
+    pub(crate) fn new(pool: &'p mut Pool<'a, S>, groups: &'p mut [u16], order: &[u16]) -> Self {
+        for &slot in order {
+            groups[usize::from(slot)] = NONE;
+        }
+        let mut previous = NONE;
+        for (place, contact) in pool.all_mut().iter_mut().enumerate() {
+            contact.flags.clear(Flags::KEPT);
+            if contact.a != previous {
+                previous = contact.a;
+                groups[usize::from(previous)] = place as u16;
+            }
+        }
+        let old = pool.all().len();
+        pool.missing = 0;
+        Self { pool, groups, old, kept: 0, regroup: false }
+    }
+
+    /// Notes that two bodies may touch; `upper` comes after `lower` in the order.
+    pub(crate) fn note(&mut self, upper: u16, lower: u16, bodies: &[Body<S>], profiles: &[Profile<S>]) {
+        // What can be pushed comes first; what is immovable pushes. Of two that are, one is a sensor.
+        let (first, second) = (bodies[usize::from(upper)].status, bodies[usize::from(lower)].status);
+        let (a, b) = if first.is_rigid() || !second.is_rigid() { (upper, lower) } else { (lower, upper) };
+        if let Some(contact) = self.find(a, b) {
+            contact.flags.set(Flags::KEPT);
+            self.kept += 1;
+        } else if !bodies[usize::from(b)].status.is_static()
+            && let Some(contact) = self.find(b, a)
+        {
+            // They have changed places in the order. Turned around, the same impulses push the same bodies.
+            (contact.a, contact.b) = (a, b);
+            contact.share = S::UNIT - contact.share;
+            contact.flags.set(Flags::KEPT.or(Flags::NEW));
+            self.kept += 1;
+            self.regroup = true;
+        } else {
+            self.pool.push(found(a, b, bodies, profiles));
+            self.regroup = true;
+        }
+    }
+
+    /// Makes room for so many contacts of a body with the tile map.
+    pub(crate) fn note_terrain(&mut self, a: u16, terrain: u16, count: usize, profiles: &[Profile<S>]) {
+        let blocking = |contact: &Contact<S>| contact.b == terrain && !contact.flags.has(Flags::SENSOR);
+        // What bears the body stays, and what else there is room for.
+        let mut kept = self.keep(a, |contact| blocking(contact) && terrain::is_in_use(contact), count);
+        kept += self.keep(a, blocking, count - kept);
+        for _ in kept..count {
+            self.pool.push(terrain::found(a, terrain, None, profiles));
+            self.regroup = true;
+        }
+    }
+
+    /// Notes that a body may overlap a sensor tile.
+    pub(crate) fn note_sensor_tile(&mut self, a: u16, terrain: u16, number: u32, profiles: &[Profile<S>]) {
+        let same = |contact: &Contact<S>| {
+            contact.b == terrain && contact.flags.has(Flags::SENSOR) && S::number_of(contact.share) == number
+        };
+        if self.keep(a, same, 1) == 0 {
+            self.pool.push(terrain::found(a, terrain, Some(number), profiles));
+            self.regroup = true;
+        }
+    }
+
+    /// Keeps up to `most` more of a body's contacts for which a condition holds; how many there were.
+    fn keep(&mut self, a: u16, condition: impl Fn(&Contact<S>) -> bool, most: usize) -> usize {
+        let first = self.groups[usize::from(a)];
+        if first == NONE {
+            return 0;
+        }
+        let group = &mut self.pool.all_mut()[usize::from(first)..self.old];
+        let mut kept = 0;
+        for contact in group.iter_mut().take_while(|contact| contact.a == a) {
+            if kept < most && contact.has_parted() && condition(contact) {
+                contact.flags.set(Flags::KEPT);
+                kept += 1;
+            }
+        }
+        self.kept += kept;
+        kept
+    }
+
+    /// The contact between two bodies, if there was one.
+    fn find(&mut self, a: u16, b: u16) -> Option<&mut Contact<S>> {
+        let first = self.groups[usize::from(a)];
+        if first == NONE {
+            return None;
+        }
+        let group = &mut self.pool.all_mut()[usize::from(first)..self.old];
+        group.iter_mut().take_while(|contact| contact.a == a).find(|contact| contact.b == b)
+    }
+
+    /// Drops what nobody noted, and brings the rest into groups. `places` is scratch space, one a body.
+    pub(crate) fn finish(
+        self,
+        order: &[u16],
+        places: &mut [u16],
+        bodies: &[Body<S>],
+        profiles: &[Profile<S>],
+        ground: Ground,
+        tell_ends: bool,
+    ) {
+        if self.kept < self.old {
+            for contact in self.pool.all_mut() {
+                if contact.has_parted() {
+                    contact.part(profiles);
+                }
+            }
+            self.pool.set_aside(tell_ends);
+        }
+        if self.regroup {
+            regroup(self.pool.all_mut(), order, self.groups, places);
+            for group in self.pool.all_mut().chunk_by_mut(|one, next| one.a == next.a) {
+                sort_group(group, bodies, ground);
+            }
+        }
+    }
+}
+
+/// A pair seen for the first time.
+fn found<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>]) -> Contact<S> {
+    let mut contact = Contact { a, b, flags: Flags::KEPT, ..Contact::EMPTY };
+    define(&mut contact, bodies, profiles);
+    contact
+}
+
+/// Takes over into a contact what its bodies' definitions say.
+pub(crate) fn define<S: Scalar>(contact: &mut Contact<S>, bodies: &[Body<S>], profiles: &[Profile<S>]) {
+    let (a, b) = (usize::from(contact.a), usize::from(contact.b));
+    let (own, other) = (&profiles[a], &profiles[b]);
+    let flags = &mut contact.flags;
+    // The slot of the tile map is the only disabled one in a contact; its sensors are tiles.
+    let tile_sensor = flags.has(Flags::SENSOR) && !bodies[b].status.is_enabled();
+    flags.clear(Flags::IMMOVABLE.or(Flags::EVEN).or(Flags::BOUNCY).or(Flags::SENSOR));
+    flags.set(Flags::NEW);
+    if bodies[b].status.is_rigid() {
+        if own.mass == other.mass {
+            flags.set(Flags::EVEN);
+        }
+        contact.share = S::mass_share(own.mass, other.mass);
+    } else {
+        flags.set(Flags::IMMOVABLE);
+    }
+    if own.returns().lesser(other.returns()) > S::Real::ZERO {
+        flags.set(Flags::BOUNCY);
+    }
+    if bodies[a].status.is_sensor() || bodies[b].status.is_sensor() || tile_sensor {
+        flags.set(Flags::SENSOR);
+    }
+    contact.friction = own.friction.min(other.friction);
+}
+
+/// Moves every contact into the group of its upper body, in place (P. `McIlroy`, K. Bostic and M. `McIlroy`, "Engineering
+/// Radix Sort", 1993: each swap brings at least one to its group).
+fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [u16], next: &mut [u16]) {
+    for &slot in order {
+        next[usize::from(slot)] = 0;
+    }
+    for contact in &*contacts {
+        next[usize::from(contact.a)] += 1;
+    }
+    let mut total = 0;
+    for &slot in order {
+        let (group, next) = (&mut groups[usize::from(slot)], &mut next[usize::from(slot)]);
+        let count = *next;
+        (*group, *next) = (total, total);
+        total += count;
+    }
+    let mut end = total;
+    for &slot in order.iter().rev() {
+        let slot = usize::from(slot);
+        loop {
+            let place = next[slot];
+            if place >= end {
+                break;
+            }
+            let home = usize::from(contacts[usize::from(place)].a);
+            let goal = next[home];
+            next[home] += 1;
+            if home != slot {
+                contacts.swap(usize::from(place), usize::from(goal));
+            }
+        }
+        end = groups[slot];
+    }
+}
+
+/// Sorts a body's contacts by the other body: static ones last, the others in the order of bodies.
+fn sort_group<S: Scalar>(group: &mut [Contact<S>], bodies: &[Body<S>], ground: Ground) {
+    for start in 1..group.len() {
+        let mut place = start;
+        while place > 0 && order::precedes(group[place].b, group[place - 1].b, bodies, ground) {
+            group.swap(place, place - 1);
+            place -= 1;
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The columns or the rows of a map: which of them cover a coordinate or an interval.
+
+use core::ops::Range;
+
+use crate::scalar::{Quantity, Scalar, px};
+
+/// Columns or rows: where they start, how wide they are, how many there are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Axis {
+    origin: i16,
+    size: u8,
+    count: u32,
+    /// `2^24 / size`, rounded up: see [`Axis::divided`].
+    reciprocal: u32,
+}
+
+impl Axis {
+    pub(super) fn new(origin: i16, size: u8, count: u16) -> Self {
+        let reciprocal = (1_u32 << 24).div_ceil(u32::from(size));
+        Self { origin, size, count: count.into(), reciprocal }
+    }
+
+    pub(super) fn origin(&self) -> i16 {
+        self.origin
+    }
+
+    pub(super) fn size(&self) -> u8 {
+        self.size
+    }
+
+    #[inline]
+    pub(super) fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// `distance / size` without a division. The reciprocal is less than `size / 2^24` of itself too large; that adds less
+    /// than `1 / size` to a quotient of distances up to 2^16 (Granlund and Montgomery, 1994).
+    #[inline]
+    fn divided(&self, distance: i32) -> u32 {
+        ((u64::from((distance as u32) << 8) * u64::from(self.reciprocal)) >> 32) as u32
+    }
+
+    /// px from the start to the end.
+    #[inline]
+    fn extent(&self) -> i32 {
+        i32::from(self.size) * self.count as i32
+    }
+
+    /// What covers a coordinate in whole px; `u32::MAX` if nothing does.
+    #[inline]
+    pub(super) fn index(&self, whole_px: i32) -> u32 {
+        let distance = whole_px.saturating_sub(self.origin.into());
+        if (0..self.extent()).contains(&distance) { self.divided(distance) } else { u32::MAX }
+    }
+
+    /// What covers a coordinate in whole px, if there is more of it on both sides.
+    #[inline]
+    pub(super) fn inner(&self, whole_px: i32) -> Option<u32> {
+        let index = self.index(whole_px);
+        (index != 0 && index < self.count.saturating_sub(1)).then_some(index)
+    }
+
+    /// What an interval overlaps or touches.
+    #[inline]
+    pub(super) fn span<S: Scalar>(&self, low: S::Real, high: S::Real) -> Range<u32> {
+        // The last px that begins below `low`, so that touching counts on both sides alike.
+        let first = S::floor(S::Real::ZERO.saturating_sub(low))
+            .saturating_neg()
+            .saturating_sub(1)
+            .saturating_sub(self.origin.into());
+        let last = S::floor(high).saturating_sub(self.origin.into());
+        let extent = self.extent();
+        if last < 0 || first >= extent {
+            return 0..0;
+        }
+        let start = if first <= 0 { 0 } else { self.divided(first) };
+        let end = if last >= extent { self.count } else { self.divided(last) + 1 };
+        start..end
+    }
+
+    /// Coordinate of the lesser edge of a column or row, px.
+    #[inline]
+    pub(super) fn edge<S: Scalar>(&self, index: u32) -> S::Real {
+        // Within the coordinate range: that was checked when the map was placed.
+        S::real(px((i32::from(self.origin) + i32::from(self.size) * index as i32) as i16))
+    }
+}

@@ -1,0 +1,180 @@
+//! Where a shape touches a map: one contact for each direction, however many tiles the shape lies on.
+//!
+//! A solid tile acts through the faces that it has. Of two overlaps with a box the lesser decides, as between bodies; a
+//! circle touches the closest point of the tile, and a corner only where both faces at that corner exist and no tile lies
+//! before it. Rows of tiles thus act as one surface, at every sub-pixel phase.
+
+use core::ops::Range;
+
+use heapless::Vec;
+
+use super::flags::TileFlags;
+use super::map::{BLOCKING, Side, Tile, TileMap, is_one_way, is_solid};
+use super::touch::{Candidate, Probe, offset};
+use crate::geometry::{Bounds, Outline};
+use crate::scalar::{Quantity, Scalar};
+use crate::vec2::{Vec2, vec2};
+
+/// A shape touches a tile, or comes close.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TileContact<S: Scalar> {
+    /// Unit normal from the shape into the tile.
+    pub normal: Vec2<S::Unit>,
+    /// Overlap along the normal, px; below 0 it is the gap between them.
+    pub penetration: S::Real,
+    /// The tile; of several that are equally deep, the one nearest to the shape's centre.
+    pub tile: Tile,
+}
+
+/// Most contacts with solid tiles: four faces, four corners.
+const DIRECTIONS: usize = 8;
+
+impl TileMap<'_> {
+    /// Visits where a shape touches what blocks in the map, or comes closer than `margin` px (at least 0): at most one contact
+    /// for each face direction and corner direction of solid tiles, and those with one-way tiles.
+    ///
+    /// A one-way tile is reported whenever its top is below the shape's centre: the caller decides whether the shape lands. A
+    /// box that overlaps an outer corner by at most 1/16 px in both directions passes it: it neither lands on that sliver nor
+    /// is stopped by it.
+    #[inline]
+    pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, visit: impl FnMut(TileContact<S>)) {
+        if outline.circle
+            && let Some(contacts) = self.contacts_around(outline, margin)
+        {
+            contacts.into_iter().flatten().for_each(visit);
+            return;
+        }
+        let reach = outline.half.map(|half| half.saturating_add(margin));
+        let (min, max) = (outline.centre.saturating_sub(reach), outline.centre.saturating_add(reach));
+        let (columns, rows) = self.axes();
+        let (columns, rows) = (columns.span::<S>(min.x, max.x), rows.span::<S>(min.y, max.y));
+        // Most shapes are near nothing.
+        if rows.clone().any(|row| self.row(row, &columns).iter().any(|&bits| bits & BLOCKING != 0)) {
+            self.contacts_among(outline, margin, columns, rows, visit);
+        }
+    }
+
+    /// The common case: a circle no larger than a tile, with its centre in a free place inside the map, reaches at most the tile
+    /// beside that place, the one above or below it and the one between those. Their faces towards it exist. None if it
+    /// isn't that case.
+    #[inline]
+    fn contacts_around<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real) -> Option<[Option<TileContact<S>>; 3]> {
+        let (columns, rows) = self.axes();
+        let (centre, radius) = (outline.centre, outline.half.x);
+        let reach = radius.saturating_add(margin);
+        let (column, row) = (columns.inner(S::floor(centre.x))?, rows.inner(S::floor(centre.y))?);
+        let (left, right) = (centre.x - columns.edge::<S>(column), columns.edge::<S>(column + 1) - centre.x);
+        let (top, bottom) = (centre.y - rows.edge::<S>(row), rows.edge::<S>(row + 1) - centre.y);
+        let (to_left, to_right, up, down) = (left <= reach, right <= reach, top <= reach, bottom <= reach);
+        let on_edge = left == S::Real::ZERO || top == S::Real::ZERO;
+        if on_edge || (to_left && to_right) || (up && down) {
+            return None;
+        }
+        let (next, level, aside) =
+            if to_left { (column - 1, Side::Right, left) } else { (column + 1, Side::Left, right) };
+        let (over, upright, away) = if up { (row - 1, Side::Bottom, top) } else { (row + 1, Side::Top, bottom) };
+        let (near, far) = (to_left || to_right, up || down);
+        let own = self.bits(column, row);
+        let beside = if near { self.bits(next, row) } else { 0 };
+        let above = if far { self.bits(column, over) } else { 0 };
+        let between = if near && far { self.bits(next, over) } else { 0 };
+        let all = own | beside | above | between;
+        if all & BLOCKING == 0 {
+            return Some([None; 3]);
+        }
+        if is_solid(own) || all & TileFlags::ONE_WAY.bits() != 0 {
+            return None;
+        }
+        let face = |bits: u8, side: Side, gap: S::Real, column: u32, row: u32| {
+            is_solid(bits).then(|| TileContact {
+                normal: side.inward::<S>(),
+                penetration: radius - gap,
+                tile: Tile::new(column, row, bits),
+            })
+        };
+        let faces = [face(beside, level, aside, next, row), face(above, upright, away, column, over)];
+        let corner = if faces[0].is_none() && faces[1].is_none() && is_solid(between) {
+            let probe = Probe::near(outline, margin);
+            let offset = vec2(if to_left { -left } else { right }, if up { -top } else { bottom });
+            self.circle_on_corner(&probe, Tile::new(next, over, between), offset, level, upright).map(|c| c.contact)
+        } else {
+            None
+        };
+        Some([faces[0], faces[1], corner])
+    }
+
+    #[inline(never)]
+    fn contacts_among<S: Scalar>(
+        &self,
+        outline: &Outline<S>,
+        margin: S::Real,
+        columns: Range<u32>,
+        rows: Range<u32>,
+        mut visit: impl FnMut(TileContact<S>),
+    ) {
+        let probe = Probe::near(outline, margin);
+        let mut merged = Merged::<S>(Vec::new());
+        for row in rows {
+            for (column, &bits) in (columns.start..).zip(self.row(row, &columns)) {
+                if is_solid(bits) {
+                    if let Some(candidate) = self.on_solid(&probe, Tile::new(column, row, bits)) {
+                        merged.add(candidate);
+                    }
+                } else if is_one_way(bits)
+                    && let Some(contact) = self.on_one_way(&probe, Tile::new(column, row, bits))
+                {
+                    visit(contact);
+                }
+            }
+        }
+        let overlaps = |candidate: &Candidate<S>| candidate.contact.penetration > S::Real::ZERO;
+        if !outline.circle
+            && !merged.0.iter().any(overlaps)
+            && let Some(tile) = self.at::<S>(outline.centre).filter(|tile| tile.flags.is_solid())
+        {
+            merged.add(self.way_out(&probe, tile));
+        }
+        for candidate in &merged.0 {
+            visit(candidate.contact);
+        }
+    }
+
+    /// Visits the sensor tiles that a shape overlaps or touches (a box not by a mere corner), row by row.
+    pub fn overlaps<S: Scalar>(&self, outline: &Outline<S>, mut visit: impl FnMut(Tile)) {
+        if self.sensors() == 0 {
+            return;
+        }
+        let bounds = Bounds::of(outline);
+        for tile in self.tiles_in(&bounds).filter(|tile| tile.flags.is_sensor()) {
+            let edges = self.bounds::<S>(tile);
+            let touches = if outline.circle {
+                S::within(offset(&edges, outline.centre), outline.half.x)
+            } else {
+                // They touch, or the tile wouldn't be among these: but not only a corner.
+                (bounds.min.x < edges.max.x && bounds.max.x > edges.min.x)
+                    || (bounds.min.y < edges.max.y && bounds.max.y > edges.min.y)
+            };
+            if touches {
+                visit(tile);
+            }
+        }
+    }
+}
+
+/// The deepest contact of each direction.
+struct Merged<S: Scalar>(Vec<Candidate<S>, DIRECTIONS>);
+
+impl<S: Scalar> Merged<S> {
+    #[inline(never)]
+    fn add(&mut self, new: Candidate<S>) {
+        if let Some(old) = self.0.iter_mut().find(|old| old.direction == new.direction) {
+            let (was, is) = (old.contact.penetration, new.contact.penetration);
+            if is > was || (is == was && new.aside < old.aside) {
+                *old = new;
+            }
+        } else {
+            let pushed = self.0.push(new);
+            debug_assert!(pushed.is_ok(), "there is room for each direction");
+        }
+    }
+}
