@@ -51,7 +51,7 @@ const UNNAMED: &str = "unnamed constants";
 const POINTERS: &str = "pointers";
 
 /// Names begin as they do in reports: demangled, with angle brackets.
-const PERMITS: [Permit; 25] = [
+const PERMITS: [Permit; 26] = [
     // Interrupts.
     Permit { from: "_continue_interrupt_trap", to: POINTERS, why: VECTORS },
     Permit { from: "handle_interrupts", to: POINTERS, why: VECTORS },
@@ -84,6 +84,7 @@ const PERMITS: [Permit; 25] = [
     Permit { from: TICK, to: "<flat_physics::world::World", why: TABLES },
     Permit { from: "flat_session::sink::encode", to: POINTERS, why: TABLES },
     Permit { from: "<flat_physics::step::Stage>::run", to: POINTERS, why: TABLES },
+    Permit { from: "<flat_physics::geometry::Sum<", to: UNNAMED, why: TABLES },
     Permit {
         from: "<&flat_firmware::tasks::outbox::Outbox as flat_session::sink::Sink>::push",
         to: POINTERS,
