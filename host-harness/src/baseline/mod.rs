@@ -92,7 +92,7 @@ pub fn run(arguments: &BaselineArgs) -> Result<bool, Error> {
 /// Measures and compares with the committed figures.
 ///
 /// # Errors
-/// As [`run`].
+/// As [`run()`].
 pub fn compare(timeout: std::time::Duration) -> Result<Held, Error> {
     let (before, compiler) = (read()?, Toolchain::find()?.release().to_owned());
     if before.compiler != compiler {
