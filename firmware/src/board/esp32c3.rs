@@ -14,7 +14,7 @@ use crate::stack;
 // What 313 KiB of RAM hold beside the code that runs from it and a stack of 16 KiB, of which 5 were ever used.
 pub(crate) const OUTBOX_BYTES: usize = 12 * 1024;
 pub(crate) const FIXED: Capacity = Capacity { bodies: 1024, contacts: 2048 };
-pub(crate) const F32: Capacity = Capacity { bodies: 128, contacts: 512 };
+pub(crate) const F32: Capacity = Capacity { bodies: 112, contacts: 528 };
 pub(crate) const F64: Capacity = Capacity { bodies: 8, contacts: 24 };
 
 #[esp_hal::main]
