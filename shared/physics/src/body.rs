@@ -329,6 +329,8 @@ impl Marks {
     pub(crate) const JOLTED: Self = Self(1 << 5);
     /// Left out of the step until something wakes it.
     pub(crate) const ASLEEP: Self = Self(1 << 4);
+    /// The game has changed a body that isn't rigid, while others sleep. Only rigid bodies do, so both share a bit.
+    pub(crate) const STIRRED: Self = Self::ASLEEP;
     /// Forces wait for the next step.
     pub(crate) const FORCED: Self = Self(1 << 6);
     /// Swept in this step.

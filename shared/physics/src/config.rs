@@ -39,6 +39,9 @@ pub struct Config<S: Scalar> {
     /// A body is swept once a step moves it by more than this multiple of its half extent, 0..=16. Default 1: beyond that, thin
     /// walls could be missed.
     pub ccd_threshold: S::Real,
+    /// Speed along each axis, px/s, 0..=60, up to which a body that something presses on is at rest, where sleep is called for.
+    /// Default 1/16; more freezes what slides slowly.
+    pub sleep_speed: S::Real,
 }
 
 impl<S: Scalar> Default for Config<S> {
@@ -60,6 +63,7 @@ impl<S: Scalar> Config<S> {
             damping: S::real(ratio(999, 1000)),
             speed_cap: S::real(px(500)),
             ccd_threshold: S::ONE,
+            sleep_speed: S::real(ratio(1, 16)),
         }
     }
 
@@ -77,6 +81,7 @@ impl<S: Scalar> Config<S> {
         check(Field::VelocityThreshold, self.velocity_threshold, 0, 1000)?;
         check(Field::Damping, self.damping, 0, 1)?;
         check(Field::SpeedCap, self.speed_cap, 1, 7620)?;
-        check(Field::CcdThreshold, self.ccd_threshold, 0, 16)
+        check(Field::CcdThreshold, self.ccd_threshold, 0, 16)?;
+        check(Field::SleepSpeed, self.sleep_speed, 0, 60)
     }
 }

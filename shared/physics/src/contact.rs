@@ -1,5 +1,6 @@
 //! Contacts between two bodies, and the fixed pool that holds them.
 
+mod asleep;
 mod parted;
 
 use crate::scalar::{Quantity, Scalar};
@@ -176,8 +177,10 @@ impl<S: Scalar> Contact<S> {
 pub(crate) struct Pool<'a, S: Scalar> {
     slots: &'a mut [Contact<S>],
     len: usize,
-    /// Contacts at the far end that are over, and whose end is being told.
+    /// Contacts near the far end that are over, and whose end is being told.
     aside: usize,
+    /// Contacts at the very end, of bodies that sleep.
+    asleep: usize,
     /// Most contacts of any step.
     pub(crate) peak: u16,
     /// Contacts that found no room, over all steps.
@@ -188,25 +191,26 @@ pub(crate) struct Pool<'a, S: Scalar> {
 
 impl<'a, S: Scalar> Pool<'a, S> {
     pub(crate) fn new(slots: &'a mut [Contact<S>]) -> Self {
-        Self { slots, len: 0, aside: 0, peak: 0, lost: 0, missing: 0 }
+        Self { slots, len: 0, aside: 0, asleep: 0, peak: 0, lost: 0, missing: 0 }
     }
 
     /// Becomes as another one of the same size is.
     pub(crate) fn copy_from(&mut self, other: &Pool<'_, S>) {
-        let Pool { slots, len, aside, peak, lost, missing } = other;
+        let Pool { slots, len, aside, asleep, peak, lost, missing } = other;
         self.slots.copy_from_slice(slots);
-        (self.len, self.aside) = (*len, *aside);
+        (self.len, self.aside, self.asleep) = (*len, *aside, *asleep);
         (self.peak, self.lost, self.missing) = (*peak, *lost, *missing);
     }
 
     /// Forgets the contacts and the counts.
     pub(crate) fn reset(&mut self) {
-        (self.len, self.aside, self.peak, self.lost, self.missing) = (0, 0, 0, 0, 0);
+        (self.len, self.aside, self.asleep) = (0, 0, 0);
+        (self.peak, self.lost, self.missing) = (0, 0, 0);
     }
 
     #[inline]
     pub(crate) fn push(&mut self, contact: Contact<S>) {
-        if self.len + self.aside < self.slots.len() {
+        if self.len + self.aside + self.asleep < self.slots.len() {
             self.slots[self.len] = contact;
             self.len += 1;
         } else {
@@ -216,7 +220,7 @@ impl<'a, S: Scalar> Pool<'a, S> {
 
     /// Counts, at the end of a step.
     pub(crate) fn count(&mut self) {
-        self.peak = self.peak.max((self.len + self.aside) as u16);
+        self.peak = self.peak.max((self.len + self.aside + self.asleep) as u16);
         self.lost = self.lost.saturating_add(self.missing);
     }
 

@@ -45,7 +45,7 @@ pub fn digest<S: Scalar>(world: &World<'_, S>) -> u64 {
         hasher.vector(body.velocity);
         hasher.word(u32::from(body.remainder.x as u16) << 16 | u32::from(body.remainder.y as u16));
     }
-    for contact in world.pool.all() {
+    for contact in world.pool.waking_and_asleep() {
         hasher.word(u32::from(contact.a) << 16 | u32::from(contact.b));
         hasher.vector(contact.normal);
         hasher.quantity(contact.gap);

@@ -107,6 +107,11 @@ impl fmt::Display for Effects {
 pub trait Switches: Copy {
     /// Whether the effect is on.
     fn on(self, effect: Effects) -> bool;
+
+    /// Whether a world is only ever stepped with this set, so that nothing need be undone that another one did.
+    fn are_fixed(self) -> bool {
+        false
+    }
 }
 
 /// Decided at run time.
@@ -144,5 +149,9 @@ impl<const BITS: u16> Switches for Only<BITS> {
     #[inline]
     fn on(self, effect: Effects) -> bool {
         Self::EFFECTS.contain(effect)
+    }
+    #[inline]
+    fn are_fixed(self) -> bool {
+        true
     }
 }

@@ -15,4 +15,5 @@ pub(crate) mod one_way;
 pub(crate) mod order;
 pub(crate) mod pairs;
 pub(crate) mod position;
+pub(crate) mod sleep;
 pub(crate) mod terrain;

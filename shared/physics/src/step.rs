@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::config::Level;
 use crate::effects::Switches;
-use crate::pipeline::{broadphase, ccd, events, flat, grounded, integrate, narrowphase, position};
+use crate::pipeline::{broadphase, ccd, events, flat, grounded, integrate, narrowphase, position, sleep};
 use crate::scalar::Scalar;
 use crate::world::World;
 
@@ -51,8 +51,14 @@ impl Stage {
     pub fn run<S: Scalar>(self, world: &mut World<'_, S>, switches: impl Switches) {
         match self {
             Self::Detect => {
-                broadphase::update(world, switches);
-                narrowphase::refresh(world, switches);
+                sleep::update(world, switches);
+                loop {
+                    broadphase::update(world, switches);
+                    narrowphase::refresh(world, switches);
+                    if !sleep::wake_touched(world, switches) {
+                        break;
+                    }
+                }
             }
             Self::IntegrateVelocity => integrate::velocities(world, switches),
             Self::SolveVelocity => match world.config.level {

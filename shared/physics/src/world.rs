@@ -15,6 +15,7 @@ use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::Handle;
 use crate::pipeline::broadphase::Layers;
+use crate::pipeline::sleep;
 use crate::scalar::{Quantity, Scalar};
 use crate::tiles::TileMap;
 use crate::vec2::{Vec2, vec2};
@@ -76,6 +77,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             declared: None,
             steps: 0,
             told_at: None,
+            stirred: false,
             escaped: 0,
             saturations: 0,
         };
@@ -125,6 +127,8 @@ pub struct World<'a, S: Scalar> {
     pub(crate) steps: u32,
     /// The step after which events were last noted.
     pub(crate) told_at: Option<u32>,
+    /// The game has changed something that may wake a body.
+    pub(crate) stirred: bool,
     pub(crate) escaped: u16,
     pub(crate) saturations: u32,
 }
@@ -137,13 +141,14 @@ impl<S: Scalar> World<'_, S> {
                 body.status = Body::<S>::EMPTY.status;
                 profile.generation = profile.generation.wrapping_add(1);
             }
+            profile.rest = 0;
         }
         self.pool.reset();
         self.tiles.clear();
         self.terrain = NO_TERRAIN;
-        self.layers.changed(true);
+        self.layers.clear();
         (self.used, self.free, self.count) = (0, 0, 0);
-        (self.called_for, self.declared, self.told_at) = (Effects::NONE, None, None);
+        (self.called_for, self.declared, self.told_at, self.stirred) = (Effects::NONE, None, None, false);
         (self.steps, self.escaped, self.saturations) = (0, 0, 0);
         self.apply(Config::default());
     }
@@ -174,6 +179,7 @@ impl<S: Scalar> World<'_, S> {
         self.bodies[usize::from(slot)] = body;
         self.count += 1;
         self.changed(body.status.is_static());
+        self.disturb(slot);
         Ok(self.handle(slot))
     }
 
@@ -239,6 +245,7 @@ impl<S: Scalar> World<'_, S> {
     }
 
     fn apply(&mut self, config: Config<S>) {
+        self.wake_all();
         self.gravity = config.gravity.map(S::acceleration);
         self.bounce_threshold = S::speed(config.velocity_threshold);
         self.speed_cap = S::speed(config.speed_cap);
@@ -261,30 +268,40 @@ impl<S: Scalar> World<'_, S> {
         }
     }
 
-    /// Something has happened to a body: it wakes, and its contacts are looked at again.
-    fn disturb(&mut self, slot: u16) {
+    /// Something has happened to a body: its contacts are looked at again, and whoever sleeps on it wakes.
+    pub(crate) fn disturb(&mut self, slot: u16) {
         let body = &mut self.bodies[usize::from(slot)];
-        body.marks.clear(Marks::ASLEEP);
-        if body.status.is_static() {
-            self.contacts_of(slot).for_each(|contact| contact.flags.set(Flags::NEW));
-        } else {
+        if !body.status.is_static() {
             body.marks.set(Marks::MOVED);
+        }
+        if body.status.is_rigid() {
+            self.stirred |= sleep::disturb(body, &mut self.profiles[usize::from(slot)]);
+            return;
+        }
+        let anybody_sleeps = self.layers.sleepers() > 0;
+        if anybody_sleeps {
+            body.marks.set(Marks::STIRRED);
+            self.stirred = true;
+        }
+        if anybody_sleeps || body.status.is_static() {
+            self.contacts_of(slot).for_each(|contact| contact.flags.set(Flags::NEW));
         }
     }
 
     /// A body's contacts, as far as they last.
     fn contacts_of(&mut self, slot: u16) -> impl Iterator<Item = &mut Contact<S>> {
-        self.pool.all_mut().iter_mut().filter(move |contact| contact.is_of(slot))
+        self.pool.waking_and_asleep_mut().filter(move |contact| contact.is_of(slot))
     }
 
     /// Ends a body's contacts: what meets it in the next step begins anew.
     fn part_contacts(&mut self, slot: u16) {
         let Self { pool, profiles, .. } = self;
-        for contact in pool.all_mut() {
+        for contact in pool.waking_and_asleep_mut() {
             if contact.is_of(slot) {
                 contact.part(profiles);
             }
         }
+        self.stirred = true;
     }
 
     pub(crate) fn handle(&self, slot: u16) -> Handle {

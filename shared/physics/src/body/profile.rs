@@ -4,6 +4,7 @@ use ::fixed::types::I16F16;
 
 use super::BodyDef;
 use crate::material::Material;
+use crate::pipeline::sleep;
 use crate::scalar::{Quantity, Scalar};
 
 /// Properties of a body that the stages look up once per pair or per step.
@@ -23,6 +24,8 @@ pub(crate) struct Profile<S: Scalar> {
     /// Next free slot, plus 1; 0 = none.
     pub(crate) next_free: u16,
     pub(crate) bounce: bool,
+    /// For how many steps the body has been at rest; all ones in an island that sleeps.
+    pub(crate) rest: u8,
 }
 
 impl<S: Scalar> Profile<S> {
@@ -37,6 +40,7 @@ impl<S: Scalar> Profile<S> {
         generation: 0,
         next_free: 0,
         bounce: false,
+        rest: 0,
     };
 
     /// Takes over everything but what belongs to the slot.
@@ -48,6 +52,8 @@ impl<S: Scalar> Profile<S> {
             layer: def.layer,
             mask: def.mask,
             generation: self.generation,
+            // If the slot's last body slept, its island has yet to wake.
+            rest: if self.rest == sleep::ASLEEP { sleep::ASLEEP } else { 0 },
             ..Self::EMPTY
         };
         self.set_material(&def.material);

@@ -56,7 +56,7 @@ impl<S: Scalar> Pool<'_, S> {
             if tell && contact.flags.has(Flags::TOUCHING) {
                 // Places above this one have been dealt with, and so many of them were free.
                 self.aside += 1;
-                let free = self.slots.len() - self.aside;
+                let free = self.slots.len() - self.asleep - self.aside;
                 self.slots[free] = contact;
             }
         }
@@ -70,24 +70,28 @@ impl<S: Scalar> Pool<'_, S> {
     /// Notes the end of what was set aside, and forgets those whose end was noted before.
     pub(crate) fn end_aside(&mut self) {
         let mut kept = 0;
-        for place in (self.slots.len() - self.aside..self.slots.len()).rev() {
+        let far = self.slots.len() - self.asleep;
+        for place in (far - self.aside..far).rev() {
             let mut contact = self.slots[place];
             if contact.flags.has(Flags::TOUCHING) {
                 contact.flags.clear(Flags::TOUCHING);
                 contact.flags.set(Flags::TOUCHED);
                 kept += 1;
-                let end = self.slots.len() - kept;
-                self.slots[end] = contact;
+                self.slots[far - kept] = contact;
             }
         }
         self.aside = kept;
     }
 
-    /// Of all contacts, those set aside first, the one at a place.
+    /// Of all contacts, those set aside first and sleeping ones last, the one at a place.
     pub(crate) fn at(&self, place: usize) -> Option<&Contact<S>> {
-        match place.checked_sub(self.aside) {
-            None => self.slots.get(self.slots.len() - self.aside + place),
-            Some(place) => self.all().get(place),
+        let far = self.slots.len() - self.asleep;
+        let Some(place) = place.checked_sub(self.aside) else {
+            return self.slots.get(far - self.aside + place);
+        };
+        match place.checked_sub(self.len) {
+            None => self.slots.get(place),
+            Some(place) => self.asleep().get(place),
         }
     }
 }

@@ -14,7 +14,7 @@ use super::integrate;
 use super::order::{self, Ground};
 use super::pairs::{NONE, Update};
 use super::terrain;
-use crate::body::{Body, Profile};
+use crate::body::{Body, Marks, Profile};
 use crate::contact::Flags;
 use crate::effects::{Effects, Switches};
 use crate::scalar::{Quantity, Scalar, px};
@@ -29,10 +29,12 @@ const COLUMNS: usize = 64;
 /// What the broadphase keeps from step to step, and its scratch space: four entries a body.
 #[derive(Debug)]
 pub(crate) struct Layers<'a> {
-    /// Moving bodies in sweep order, then static ones.
+    /// Moving bodies in sweep order, then static and sleeping ones.
     order: &'a mut [u16],
     dynamic_count: usize,
     static_count: usize,
+    /// Bodies that sleep, among the static ones.
+    sleepers: usize,
     /// Next body in the same list of the sweep.
     links: &'a mut [u16],
     /// First contact of each body, by slot.
@@ -43,6 +45,8 @@ pub(crate) struct Layers<'a> {
     dirty: bool,
     /// Static bodies did.
     statics_dirty: bool,
+    /// The contacts' groups don't lie in order.
+    scattered: bool,
 }
 
 impl<'a> Layers<'a> {
@@ -56,24 +60,39 @@ impl<'a> Layers<'a> {
             order,
             dynamic_count: 0,
             static_count: 0,
+            sleepers: 0,
             links,
             groups,
             grid: Grid::new(entries),
             ground: Ground::default(),
             dirty: true,
             statics_dirty: true,
+            scattered: false,
         }
     }
 
     /// Becomes as another one of the same size is.
     pub(crate) fn copy_from(&mut self, other: &Layers<'_>) {
-        let Layers { order, dynamic_count, static_count, links, groups, grid, ground, dirty, statics_dirty } = other;
+        let Layers {
+            order,
+            dynamic_count,
+            static_count,
+            sleepers,
+            links,
+            groups,
+            grid,
+            ground,
+            dirty,
+            statics_dirty,
+            scattered,
+        } = other;
         self.order.copy_from_slice(order);
         self.links.copy_from_slice(links);
         self.groups.copy_from_slice(groups);
         self.grid.copy_from(grid);
-        (self.dynamic_count, self.static_count, self.ground) = (*dynamic_count, *static_count, *ground);
-        (self.dirty, self.statics_dirty) = (*dirty, *statics_dirty);
+        (self.dynamic_count, self.static_count, self.sleepers) = (*dynamic_count, *static_count, *sleepers);
+        (self.dirty, self.statics_dirty, self.scattered) = (*dirty, *statics_dirty, *scattered);
+        self.ground = *ground;
     }
 
     /// Bodies that may move, in the order of the last sweep: from the ground up.
@@ -103,6 +122,34 @@ impl<'a> Layers<'a> {
         self.statics_dirty |= is_static;
     }
 
+    /// No bodies are left.
+    pub(crate) fn clear(&mut self) {
+        self.changed(true);
+        self.sleepers = 0;
+    }
+
+    /// Bodies that sleep, as of the last step.
+    #[inline]
+    pub(crate) fn sleepers(&self) -> usize {
+        self.sleepers
+    }
+
+    /// Bodies have fallen asleep or woken, and their contacts lie elsewhere.
+    pub(crate) fn shift_sleepers(&mut self) {
+        self.changed(true);
+        self.scattered = true;
+    }
+
+    /// Moving bodies; the links, which are free between steps; scratch space, one a body.
+    pub(crate) fn islands(&mut self) -> (&[u16], &mut [u16], &mut [u16]) {
+        (&self.order[..self.dynamic_count], self.links, self.groups)
+    }
+
+    /// The next body round a sleeping island.
+    pub(crate) fn next_in_island(&self, slot: u16) -> u16 {
+        self.links[usize::from(slot)]
+    }
+
     /// Brings both layers up to date with the bodies.
     pub(crate) fn refresh<S: Scalar>(&mut self, bodies: &[Body<S>]) {
         if !self.dirty {
@@ -110,9 +157,11 @@ impl<'a> Layers<'a> {
             return;
         }
         self.dirty = false;
-        self.dynamic_count = gather(self.order, bodies, |body| !body.status.is_static());
+        let sleeps = |body: &Body<S>| body.status.is_rigid() && body.marks.has(Marks::ASLEEP);
+        self.dynamic_count = gather(self.order, bodies, |body| !body.status.is_static() && !sleeps(body));
         let (dynamics, rest) = self.order.split_at_mut(self.dynamic_count);
-        self.static_count = gather(rest, bodies, |body| body.status.is_static());
+        self.static_count = gather(rest, bodies, |body| body.status.is_static() || sleeps(body));
+        self.sleepers = rest[..self.static_count].iter().filter(|&&slot| sleeps(&bodies[usize::from(slot)])).count();
         order::sort(dynamics, bodies, self.ground);
         if self.statics_dirty {
             self.statics_dirty = false;
@@ -171,9 +220,9 @@ fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
         pool.set_aside(tell_ends);
     }
     layers.refresh(bodies);
-    let Layers { order, dynamic_count, links, groups, grid, ground, .. } = layers;
+    let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let dynamics = &order[..*dynamic_count];
-    let mut update = Update::new(pool, groups, dynamics);
+    let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
     let mut sweep = Sweep::new(links, dynamics, bodies, *ground);
     for (rank, &slot) in dynamics.iter().enumerate() {
         let body = &bodies[usize::from(slot)];
@@ -188,7 +237,13 @@ fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
         };
         sweep.visit(rank, dynamics, &near, bodies, &mut note);
         if body.status.is_rigid() || sensors {
-            grid.visit(&near.bounds(), bodies, &mut |other| note(slot, other));
+            // Whoever sleeps is found by rigid bodies; others have woken it if they move.
+            let finds = |other: u16| body.status.is_rigid() || bodies[usize::from(other)].status.is_static();
+            grid.visit(&near.bounds(), bodies, &mut |other| {
+                if finds(other) {
+                    note(slot, other);
+                }
+            });
         }
         if switches.on(Effects::TILES) && terrain != NONE && (body.status.is_rigid() || sensors) {
             look_for_tiles(slot, terrain, body, &mut update, tiles, profiles);

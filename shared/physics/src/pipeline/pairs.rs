@@ -23,7 +23,8 @@ pub(crate) struct Update<'p, 'a, S: Scalar> {
 }
 
 impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
-    pub(crate) fn new(pool: &'p mut Pool<'a, S>, groups: &'p mut [u16], order: &[u16]) -> Self {
+    /// `scattered`: groups lie in another order than the bodies.
+    pub(crate) fn new(pool: &'p mut Pool<'a, S>, groups: &'p mut [u16], order: &[u16], scattered: bool) -> Self {
         for &slot in order {
             groups[usize::from(slot)] = NONE;
         }
@@ -37,7 +38,7 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
         }
         let old = pool.all().len();
         pool.missing = 0;
-        Self { pool, groups, old, kept: 0, regroup: false }
+        Self { pool, groups, old, kept: 0, regroup: scattered }
     }
 
     /// Notes that two bodies may touch; `upper` comes after `lower` in the order.

@@ -57,6 +57,7 @@ impl<S: Scalar> World<'_, S> {
             declared,
             steps,
             told_at,
+            stirred,
             escaped,
             saturations,
         } = other;
@@ -72,7 +73,8 @@ impl<S: Scalar> World<'_, S> {
         (self.travel, self.fastest) = (*travel, *fastest);
         (self.used, self.free, self.count) = (*used, *free, *count);
         (self.called_for, self.declared) = (*called_for, *declared);
-        (self.steps, self.told_at, self.escaped, self.saturations) = (*steps, *told_at, *escaped, *saturations);
+        (self.steps, self.told_at, self.stirred) = (*steps, *told_at, *stirred);
+        (self.escaped, self.saturations) = (*escaped, *saturations);
         Ok(())
     }
 }

@@ -241,7 +241,7 @@ impl<S: Scalar> World<'_, S> {
     /// What contacts take over from a body has changed.
     fn redefined(&mut self, slot: u16) {
         let Self { pool, bodies, profiles, .. } = self;
-        for contact in pool.all_mut() {
+        for contact in pool.waking_and_asleep_mut() {
             if contact.is_of(slot) {
                 pairs::define(contact, bodies, profiles);
             }

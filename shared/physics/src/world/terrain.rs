@@ -77,6 +77,7 @@ impl<S: Scalar> World<'_, S> {
         let handle = self.spawn(&def)?;
         self.call_for(handle.slot, effects)?;
         self.terrain = handle.slot;
+        self.wake_all();
         Ok(handle)
     }
 
@@ -95,6 +96,7 @@ impl<S: Scalar> World<'_, S> {
             self.changed(false);
             let terrain = self.terrain;
             self.contacts_of(terrain).for_each(|contact| contact.flags.set(Flags::NEW));
+            self.wake_all();
         }
         Ok(changed)
     }

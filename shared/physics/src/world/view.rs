@@ -1,7 +1,7 @@
 //! What users read of a world between steps.
 
 use super::World;
-use crate::body::{Body, BodyDef, Kind};
+use crate::body::{Body, BodyDef, Kind, Marks};
 use crate::error::Error;
 use crate::handle::Handle;
 use crate::scalar::{Quantity, Scalar};
@@ -46,6 +46,8 @@ pub struct BodyView<S: Scalar> {
     pub visible: bool,
     /// Whether it takes part in physics. False once it has left the coordinate range.
     pub enabled: bool,
+    /// Whether it sleeps.
+    pub asleep: bool,
     /// Free for the user.
     pub user_data: u32,
 }
@@ -101,7 +103,7 @@ impl<S: Scalar> World<'_, S> {
 
     /// The contacts of the last step without so many first ones: for reading them in parts.
     pub fn contacts_from(&self, place: u16) -> impl Iterator<Item = ContactView<S>> {
-        let touching = self.pool.all().iter().filter(|contact| contact.touches());
+        let touching = self.pool.waking_and_asleep().filter(|contact| contact.touches());
         touching.skip(usize::from(place)).map(|contact| ContactView {
             bodies: [self.handle(contact.a), self.handle(contact.b)],
             normal: contact.normal,
@@ -115,7 +117,7 @@ impl<S: Scalar> World<'_, S> {
         Statistics {
             steps: self.steps,
             bodies: self.count,
-            contacts: self.pool.all().iter().filter(|contact| contact.touches()).count() as u16,
+            contacts: self.pool.waking_and_asleep().filter(|contact| contact.touches()).count() as u16,
             contacts_peak: self.pool.peak,
             contacts_lost: self.pool.lost,
             escaped: self.escaped,
@@ -139,6 +141,7 @@ impl<S: Scalar> World<'_, S> {
             shape: body.shape(),
             visible: body.status.is_visible(),
             enabled: body.status.is_enabled(),
+            asleep: body.status.is_rigid() && body.marks.has(Marks::ASLEEP),
             user_data: self.profiles[usize::from(slot)].user_data,
         }
     }

@@ -1,0 +1,66 @@
+//! Contacts of bodies that sleep: they lie at the very end of the pool, out of every stage's sight, until their bodies wake.
+
+use super::{Contact, Flags, Pool};
+use crate::scalar::Scalar;
+
+impl<S: Scalar> Pool<'_, S> {
+    /// Contacts of sleeping bodies.
+    pub(crate) fn asleep(&self) -> &[Contact<S>] {
+        &self.slots[self.slots.len() - self.asleep..]
+    }
+
+    /// All contacts that last, sleeping ones last.
+    pub(crate) fn waking_and_asleep(&self) -> impl Iterator<Item = &Contact<S>> {
+        self.all().iter().chain(self.asleep())
+    }
+
+    /// The same, to change them.
+    pub(crate) fn waking_and_asleep_mut(&mut self) -> impl Iterator<Item = &mut Contact<S>> {
+        let (rest, asleep) = self.slots.split_at_mut(self.slots.len() - self.asleep);
+        rest[..self.len].iter_mut().chain(asleep)
+    }
+
+    /// Puts contacts to sleep; events of their bodies go on saying that they touch.
+    pub(crate) fn put_to_sleep(&mut self, sleeps: impl Fn(&Contact<S>) -> bool) {
+        let awake = part(&mut self.slots[..self.len], &|contact| !sleeps(contact));
+        let count = self.len - awake;
+        for contact in &mut self.slots[awake..self.len] {
+            contact.flags.clear(Flags::TOUCHED);
+            if contact.flags.has(Flags::TOUCHING) {
+                contact.flags.set(Flags::TOUCHED);
+            }
+        }
+        let far = self.slots.len() - self.asleep;
+        let start = far - self.aside - count;
+        self.slots.copy_within(awake..self.len, start);
+        self.slots[start..far].rotate_left(count); // what is set aside lies before them
+        self.asleep += count;
+        self.len = awake;
+    }
+
+    /// Wakes contacts.
+    pub(crate) fn wake(&mut self, wakes: impl Fn(&Contact<S>) -> bool) {
+        let far = self.slots.len() - self.asleep;
+        let count = part(&mut self.slots[far..], &wakes);
+        let start = far - self.aside;
+        self.slots[start..far + count].rotate_left(self.aside);
+        self.slots.copy_within(start..start + count, self.len);
+        self.asleep -= count;
+        self.len += count;
+    }
+}
+
+/// Moves the contacts for which a condition holds to the front, all in the order in which they were; how many there are.
+fn part<S: Scalar>(contacts: &mut [Contact<S>], condition: &impl Fn(&Contact<S>) -> bool) -> usize {
+    match contacts {
+        [] => 0,
+        [contact] => usize::from(condition(contact)),
+        _ => {
+            let middle = contacts.len() / 2;
+            let (left, right) = contacts.split_at_mut(middle);
+            let (first, second) = (part(left, condition), part(right, condition));
+            contacts[first..middle + second].rotate_left(middle - first);
+            first + second
+        }
+    }
+}
