@@ -6,6 +6,8 @@
 use core::fmt;
 use core::ops::BitOr;
 
+use crate::config::Level;
+
 /// A set of effects.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effects(u16);
@@ -103,12 +105,25 @@ impl fmt::Display for Effects {
     }
 }
 
-/// Says which effects are on.
+/// Says which effects are on, and which levels of accuracy there are.
 pub trait Switches: Copy {
+    /// All effects that are on.
+    fn effects(self) -> Effects;
+
+    /// The level that every world has; none if each world's [`Config`](crate::Config) says.
+    #[inline]
+    fn level(self) -> Option<Level> {
+        None
+    }
+
     /// Whether the effect is on.
-    fn on(self, effect: Effects) -> bool;
+    #[inline]
+    fn on(self, effect: Effects) -> bool {
+        self.effects().contain(effect)
+    }
 
     /// Whether a world is only ever stepped with this set, so that nothing need be undone that another one did.
+    #[inline]
     fn are_fixed(self) -> bool {
         false
     }
@@ -117,38 +132,44 @@ pub trait Switches: Copy {
 /// Decided at run time.
 impl Switches for Effects {
     #[inline]
-    fn on(self, effect: Effects) -> bool {
-        self.contain(effect)
+    fn effects(self) -> Effects {
+        self
     }
 }
 
-/// Decided when compiled: `Only::<{ Effects::GRAVITY.bits() }>`.
+/// Decided when compiled: `Only::<{ Effects::GRAVITY.bits() }>`. Code of other effects isn't linked; nor is that of other levels
+/// if the second parameter names one, such as `{ Level::Grounded as u8 }`.
 ///
 /// Bits that stand for no effect don't compile:
 /// ```compile_fail
-/// use flat_physics::{Effects, Only};
-/// let effects = Effects::from(Only::<0x8000>);
+/// use flat_physics::{Effects, Only, Switches};
+/// let effects = Only::<0x8000>.effects();
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Only<const BITS: u16>;
+pub struct Only<const BITS: u16, const LEVEL: u8 = { u8::MAX }>;
 
-impl<const BITS: u16> Only<BITS> {
+impl<const BITS: u16, const LEVEL: u8> Only<BITS, LEVEL> {
     const EFFECTS: Effects = match Effects::from_bits(BITS) {
         Some(effects) => effects,
         None => panic!("a bit of the set stands for no effect"),
     };
+    const LEVEL: Option<Level> = match LEVEL {
+        0 => Some(Level::Flat),
+        1 => Some(Level::Grounded),
+        2 => Some(Level::Exact),
+        u8::MAX => None,
+        _ => panic!("the number stands for no level"),
+    };
 }
 
-impl<const BITS: u16> From<Only<BITS>> for Effects {
-    fn from(_: Only<BITS>) -> Self {
-        Only::<BITS>::EFFECTS
-    }
-}
-
-impl<const BITS: u16> Switches for Only<BITS> {
+impl<const BITS: u16, const LEVEL: u8> Switches for Only<BITS, LEVEL> {
     #[inline]
-    fn on(self, effect: Effects) -> bool {
-        Self::EFFECTS.contain(effect)
+    fn effects(self) -> Effects {
+        Self::EFFECTS
+    }
+    #[inline]
+    fn level(self) -> Option<Level> {
+        Self::LEVEL
     }
     #[inline]
     fn are_fixed(self) -> bool {

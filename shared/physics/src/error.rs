@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::config::Level;
 use crate::effects::Effects;
 use crate::handle::Handle;
 use crate::scalar::{Scalar, px};
@@ -45,6 +46,13 @@ pub enum Error<S: Scalar> {
         missing: Effects,
         /// What is.
         declared: Effects,
+    },
+    /// The settings are for another level of accuracy than the world was [declared](crate::World::declare) to have.
+    OtherLevel {
+        /// The level of the settings.
+        configured: Level,
+        /// The declared one.
+        declared: Level,
     },
     /// A number is outside its range, or not a number.
     OutOfRange {
@@ -165,6 +173,12 @@ impl<S: Scalar> fmt::Display for Error<S> {
                     None => write!(f, "the settings call for {missing}")?,
                 }
                 write!(f, ", but only {declared} is declared: declare {missing} too, or do without")
+            }
+            Self::OtherLevel { configured, declared } => {
+                write!(
+                    f,
+                    "the settings are for level {configured:?}, but only {declared:?} is declared: use one of them"
+                )
             }
             Self::OutOfRange { field, value, range: (low, high) } => {
                 write!(f, "{field} is {value}, must be {low}..={high}")

@@ -51,6 +51,7 @@ impl Stage {
     pub fn run<S: Scalar>(self, world: &mut World<'_, S>, switches: impl Switches) {
         match self {
             Self::Detect => {
+                integrate::hold_kinematic(world, switches);
                 sleep::update(world, switches);
                 loop {
                     broadphase::update(world, switches);
@@ -61,15 +62,15 @@ impl Stage {
                 }
             }
             Self::IntegrateVelocity => integrate::velocities(world, switches),
-            Self::SolveVelocity => match world.config.level {
+            Self::SolveVelocity => match world.level(switches) {
                 Level::Flat => flat::solve(world, switches),
                 Level::Grounded | Level::Exact => grounded::solve(world, switches),
             },
             Self::IntegratePosition => {
                 ccd::limit(world, switches);
-                integrate::positions(world);
+                integrate::positions(world, switches);
             }
-            Self::CorrectPenetration => position::correct(world),
+            Self::CorrectPenetration => position::correct(world, switches),
             Self::Events => events::publish(world, switches),
         }
     }

@@ -9,9 +9,9 @@ mod terrain;
 mod view;
 
 use crate::body::{Body, BodyDef, Marks, Profile};
-use crate::config::Config;
+use crate::config::{Config, Level};
 use crate::contact::{Contact, Flags, Pool};
-use crate::effects::Effects;
+use crate::effects::{Effects, Switches};
 use crate::error::Error;
 use crate::handle::Handle;
 use crate::pipeline::broadphase::Layers;
@@ -69,12 +69,15 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             terrain: NO_TERRAIN,
             travel: S::Speed::ZERO,
             fastest: S::Speed::ZERO,
+            smallest: S::Speed::ZERO,
+            deep: false,
             speed_cap: S::Speed::ZERO,
             used: 0,
             free: 0,
             count: 0,
             called_for: Effects::NONE,
             declared: None,
+            declared_level: None,
             steps: 0,
             told_at: None,
             stirred: false,
@@ -115,6 +118,10 @@ pub struct World<'a, S: Scalar> {
     pub(crate) travel: S::Speed,
     /// Largest velocity component after the last step.
     pub(crate) fastest: S::Speed,
+    /// Half of the shorter side of the smallest moving body, as a speed.
+    pub(crate) smallest: S::Speed,
+    /// A contact may be so deep that continuous collision detection must care, however slow its bodies are.
+    pub(crate) deep: bool,
     pub(crate) speed_cap: S::Speed,
     /// Slots below this have held a body since the world was last empty.
     used: u16,
@@ -122,8 +129,9 @@ pub struct World<'a, S: Scalar> {
     free: u16,
     count: u16,
     /// What the bodies have called for since the world was last empty.
-    called_for: Effects,
+    pub(crate) called_for: Effects,
     declared: Option<Effects>,
+    declared_level: Option<Level>,
     pub(crate) steps: u32,
     /// The step after which events were last noted.
     pub(crate) told_at: Option<u32>,
@@ -148,7 +156,8 @@ impl<S: Scalar> World<'_, S> {
         self.terrain = NO_TERRAIN;
         self.layers.clear();
         (self.used, self.free, self.count) = (0, 0, 0);
-        (self.called_for, self.declared, self.told_at, self.stirred) = (Effects::NONE, None, None, false);
+        (self.called_for, self.declared, self.declared_level) = (Effects::NONE, None, None);
+        (self.told_at, self.stirred) = (None, false);
         (self.steps, self.escaped, self.saturations) = (0, 0, 0);
         self.apply(Config::default());
     }
@@ -213,11 +222,12 @@ impl<S: Scalar> World<'_, S> {
     /// Replaces the settings.
     ///
     /// # Errors
-    /// What [`Config::validate`] finds; [`Error::Undeclared`] if they call for an effect that was not
-    /// [declared](Self::declare). The old settings then stay.
+    /// What [`Config::validate`] finds; [`Error::Undeclared`] or [`Error::OtherLevel`] if they call for an effect or a level that
+    /// was not [declared](Self::declare). The old settings then stay.
     pub fn configure(&mut self, config: Config<S>) -> Result<(), Error<S>> {
         config.validate()?;
         self.check_declared(None, config.called_for())?;
+        self.declared_level.map_or(Ok(()), |declared| Self::check_level(config.level, declared))?;
         self.apply(config);
         Ok(())
     }
@@ -242,6 +252,12 @@ impl<S: Scalar> World<'_, S> {
         let velocity = &mut self.bodies[slot].velocity.x;
         *velocity = S::speed_from_bits(velocity.bits() ^ 1i64.wrapping_shl(bit.into()));
         Ok(())
+    }
+
+    /// The level of a step.
+    #[inline]
+    pub(crate) fn level(&self, switches: impl Switches) -> Level {
+        switches.level().unwrap_or(self.config.level)
     }
 
     fn apply(&mut self, config: Config<S>) {

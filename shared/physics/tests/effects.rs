@@ -3,8 +3,8 @@
 
 use flat_physics::scalar::{px, ratio};
 use flat_physics::{
-    BodyDef, Config, Effects, Error, Fixed, Kind, Level, Material, Only, Shape, Storage, Vec2, World, digest, step,
-    vec2,
+    BodyDef, Config, Effects, Error, Fixed, Kind, Level, Material, Only, Shape, Storage, Switches, Vec2, World, digest,
+    step, vec2,
 };
 use proptest::prelude::*;
 
@@ -139,7 +139,8 @@ fn nothing_is_declared_that_the_world_calls_for_already() {
 #[test]
 fn sets_are_what_their_bits_say() {
     const SET: Only<{ Effects::GRAVITY.and(Effects::CCD).bits() }> = Only;
-    assert_eq!(Effects::from(SET), Effects::GRAVITY | Effects::CCD);
+    assert_eq!((SET.effects(), SET.level()), (Effects::GRAVITY | Effects::CCD, None));
+    assert_eq!(Only::<0, { Level::Exact as u8 }>.level(), Some(Level::Exact));
     assert_eq!(Effects::from_bits(Effects::ALL.bits()), Some(Effects::ALL));
     assert_eq!(Effects::from_bits(Effects::ALL.bits() + 1), None);
     assert_eq!((Effects::GRAVITY | Effects::TILES).to_string(), "gravity + tiles");
@@ -191,9 +192,34 @@ proptest! {
         prop_assert_eq!(off(Effects::FRICTION), run(&bodies, all, as_is, |def| def.material.friction = px(0)));
         prop_assert_eq!(off(Effects::BOUNCE), run(&bodies, all, as_is, |def| def.material.bounce = false));
         prop_assert_eq!(off(Effects::EVENTS), run(&bodies, all, as_is, whole));
+        let driven = |moves: bool| move |def: &mut BodyDef<Fixed>| {
+            if def.velocity.x > 0 {
+                def.kind = Kind::Kinematic;
+                def.velocity = if moves { def.velocity } else { Vec2::default() };
+            }
+        };
+        prop_assert_eq!(run(&bodies, all.without(Effects::KINEMATIC), as_is, driven(true)), run(&bodies, all, as_is, driven(false)));
         // These find nothing to do here.
-        for effect in [Effects::SENSORS, Effects::ONE_WAY, Effects::KINEMATIC, Effects::TILES] {
+        for effect in [Effects::SENSORS, Effects::ONE_WAY, Effects::TILES] {
             prop_assert_eq!(off(effect), run(&bodies, all, as_is, whole), "{}", effect);
         }
     }
+}
+
+#[test]
+fn a_declared_level_is_the_only_one() {
+    const GROUNDED: Only<{ Effects::GRAVITY.bits() }, { Level::Grounded as u8 }> = Only;
+    let mut storage = Storage::<Fixed, 2, 4>::new();
+    let mut world = storage.world();
+    world.declare(GROUNDED).unwrap();
+    let error = world.configure(Config::at(Level::Flat)).unwrap_err();
+    assert_eq!(error, Error::OtherLevel { configured: Level::Flat, declared: Level::Grounded });
+    assert!(error.to_string().contains("level Flat, but only Grounded is declared"), "{error}");
+    world.configure(Config { gravity: vec2(px(0), px(100)), ..Config::default() }).unwrap();
+    world.clear();
+    world.configure(Config::at(Level::Exact)).unwrap();
+    assert_eq!(
+        world.declare(GROUNDED).unwrap_err(),
+        Error::OtherLevel { configured: Level::Exact, declared: Level::Grounded }
+    );
 }

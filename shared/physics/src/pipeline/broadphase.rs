@@ -212,14 +212,19 @@ fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let sensors = switches.on(Effects::SENSORS);
     let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
     let terrain = world.terrain;
-    let World { bodies, profiles, layers, pool, tiles, .. } = world;
+    let World { bodies, profiles, layers, pool, tiles, smallest, .. } = world;
     if !tell_ends {
         pool.forget_aside();
     }
     if layers.dirty {
         pool.set_aside(tell_ends);
     }
+    let changed = layers.dirty;
     layers.refresh(bodies);
+    if changed {
+        let sizes = layers.dynamics().iter().map(|&slot| &bodies[usize::from(slot)].half);
+        *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
+    }
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let dynamics = &order[..*dynamic_count];
     let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));

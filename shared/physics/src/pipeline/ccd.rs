@@ -22,8 +22,6 @@ use crate::world::World;
 /// A mover is swept as if it were smaller by this on all sides, px: so it slides over the seams between floors on which it rests
 /// within the slop, and grazes corners.
 const SKIN: ::fixed::types::I16F16 = ratio(1, 32);
-/// Depth from which on a contact is held back, px.
-const DEEP: ::fixed::types::I16F16 = ratio(-1, 4);
 /// Most rounds in which bodies stop each other: a row of so many is stopped in good order.
 const ROUNDS: usize = 16;
 /// Tiles along which one sweep slides: a floor and a wall, before it stops at the next.
@@ -31,12 +29,17 @@ const SURFACES: usize = 3;
 
 /// Cuts the motions of fast bodies short; [`Body::push`] says by how much until they have moved.
 pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    let exact = world.config.level == Level::Exact;
+    let exact = world.level(switches) == Level::Exact;
     if !switches.on(Effects::CCD) && !exact {
         return;
     }
-    hold_back(world);
+    if world.deep {
+        hold_back(world);
+    }
     let threshold = if exact { S::Real::ZERO } else { world.config.ccd_threshold };
+    if all_are_slow(S::speed_scaled(world.smallest, threshold), world) {
+        return;
+    }
     let (mut fast, mut swift) = (false, false);
     for place in 0..world.layers.dynamics().len() {
         let slot = world.layers.dynamics()[place];
@@ -70,9 +73,21 @@ pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
     }
 }
 
+/// Whether nobody moves by more than that in this step: most steps end here.
+fn all_are_slow<S: Scalar>(slow: S::Speed, world: &World<'_, S>) -> bool {
+    let is_slow = |body: &Body<S>| body.velocity.x.is_within(slow) && body.velocity.y.is_within(slow);
+    world.fastest.is_within(slow) && world.slots().iter().all(is_slow)
+}
+
+/// Gap from which on a contact is held back.
+#[inline]
+pub(crate) fn deep<S: Scalar>() -> S::Speed {
+    S::per_step(S::real(ratio(-1, 4)))
+}
+
 /// What is pressed deep into something immovable, however slowly, is pressed no further than to its centre.
 fn hold_back<S: Scalar>(world: &mut World<'_, S>) {
-    let deep = S::per_step(S::real(DEEP));
+    let deep = deep::<S>();
     for place in 0..world.pool.all().len() {
         let contact = world.pool.all()[place];
         let flags = contact.flags;

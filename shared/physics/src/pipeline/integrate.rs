@@ -20,7 +20,7 @@ pub(crate) fn gravity<S: Scalar>(world: &World<'_, S>, switches: impl Switches) 
 /// Lets contacts bounce, then accelerates every rigid body.
 pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let gravity = gravity(world, switches);
-    if switches.on(Effects::BOUNCE) && world.config.level != Level::Flat {
+    if switches.on(Effects::BOUNCE) && world.level(switches) != Level::Flat {
         bounce::bounce(world, gravity);
     }
     let (damping, cap) = (world.config.damping, world.speed_cap);
@@ -54,9 +54,17 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
     }
 }
 
+/// Stops the kinematic bodies, where they are not called for: what isn't moved may as well be fixed.
+pub(crate) fn hold_kinematic<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    if !switches.on(Effects::KINEMATIC) && world.called_for.contain(Effects::KINEMATIC) {
+        let driven = world.bodies.iter_mut().filter(|body| body.status.is_kinematic());
+        driven.for_each(|body| body.velocity = Vec2::default());
+    }
+}
+
 /// Moves every body by its velocity, which is first held within the speed limit.
-pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>) {
-    let averaged = world.config.level != Level::Flat;
+pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let averaged = world.level(switches) != Level::Flat;
     let (mut farthest, mut fastest) = (S::Speed::ZERO, S::Speed::ZERO);
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];

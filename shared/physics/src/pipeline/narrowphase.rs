@@ -7,7 +7,7 @@ use crate::body::{Body, Marks};
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
 use crate::pipeline::order::Ground;
-use crate::pipeline::{one_way, terrain};
+use crate::pipeline::{ccd, one_way, terrain};
 use crate::scalar::{Quantity, Scalar, ratio};
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
@@ -36,7 +36,7 @@ impl<S: Scalar> Manifold<S> {
 /// Looks again at every contact of a body that has moved.
 pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let ground = world.layers.ground();
-    let World { pool, bodies, terrain, .. } = world;
+    let World { pool, bodies, terrain, deep, .. } = world;
     let mut with_terrain = false;
     for contact in pool.all_mut() {
         let (a, b) = (&bodies[usize::from(contact.a)], &bodies[usize::from(contact.b)]);
@@ -57,6 +57,7 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             continue;
         };
         write(contact, &manifold, ground);
+        *deep |= contact.gap < ccd::deep::<S>();
         // No pass after this one looks at what is far: so sensors notice and never block, and cost no pass anything.
         if switches.on(Effects::SENSORS) && contact.flags.has(Flags::SENSOR) {
             contact.flags.set(Flags::FAR);
@@ -70,13 +71,14 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
 /// Looks again at the contacts with the tile map, body by body.
 fn refresh_terrain<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let ground = world.layers.ground();
-    let World { pool, bodies, terrain, tiles, .. } = world;
+    let World { pool, bodies, terrain, tiles, deep, .. } = world;
     let mut complete = true;
     for group in pool.all_mut().chunk_by_mut(|one, next| one.a == next.a && one.b == next.b) {
         let body = &bodies[usize::from(group[0].a)];
         let stale = body.marks.has(Marks::MOVED) || group.iter().any(|contact| contact.flags.has(Flags::NEW));
         if group[0].b == *terrain && stale {
             complete &= terrain::look(tiles, body, group, ground, switches);
+            *deep |= group.iter().any(|contact| contact.gap < ccd::deep::<S>());
         }
     }
     if !complete {

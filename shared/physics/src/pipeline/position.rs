@@ -8,17 +8,20 @@
 use crate::body::{Body, Marks, PUSH};
 use crate::config::Level;
 use crate::contact::{Contact, Flags};
+use crate::effects::Switches;
+use crate::pipeline::ccd;
 use crate::pipeline::order::Ground;
 use crate::scalar::{Quantity, Scalar};
 use crate::world::World;
 
 /// One pass over all contacts.
-pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>) {
+pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let slop = S::per_step(world.config.slop);
     let bias = world.config.bias;
     let ground = world.layers.ground();
-    let flat = world.config.level == Level::Flat;
+    let flat = world.level(switches) == Level::Flat;
     let aim = if flat { slop } else { S::half_speed(slop) };
+    world.deep = false;
     for contact in world.pool.all() {
         if contact.flags.has(Flags::FAR) {
             continue;
@@ -28,6 +31,7 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>) {
         if depth <= slop {
             continue;
         }
+        world.deep |= contact.gap < ccd::deep::<S>();
         let correction = S::speed_scaled(depth - aim, bias);
         let a = &world.bodies[usize::from(contact.a)];
         let b = &world.bodies[usize::from(contact.b)];

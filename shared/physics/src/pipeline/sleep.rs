@@ -87,7 +87,7 @@ pub(crate) fn disturb<S: Scalar>(body: &mut Body<S>, profile: &mut Profile<S>) -
 /// Counts for how long each body has been slow; whether one has been for long enough. What moves by itself wakes whatever is near.
 fn watch<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) -> bool {
     let slow = S::speed(world.config.sleep_speed);
-    let knows_what_presses = world.config.level != Level::Flat;
+    let knows_what_presses = world.level(switches) != Level::Flat;
     let mut ripe = false;
     for place in 0..world.layers.dynamics().len() {
         let slot = world.layers.dynamics()[place];

@@ -49,12 +49,15 @@ impl<S: Scalar> World<'_, S> {
             terrain,
             travel,
             fastest,
+            smallest,
+            deep,
             speed_cap,
             used,
             free,
             count,
             called_for,
             declared,
+            declared_level,
             steps,
             told_at,
             stirred,
@@ -70,9 +73,9 @@ impl<S: Scalar> World<'_, S> {
         self.terrain = *terrain;
         (self.config, self.gravity, self.bounce_threshold, self.speed_cap) =
             (*config, *gravity, *bounce_threshold, *speed_cap);
-        (self.travel, self.fastest) = (*travel, *fastest);
+        (self.travel, self.fastest, self.smallest, self.deep) = (*travel, *fastest, *smallest, *deep);
         (self.used, self.free, self.count) = (*used, *free, *count);
-        (self.called_for, self.declared) = (*called_for, *declared);
+        (self.called_for, self.declared, self.declared_level) = (*called_for, *declared, *declared_level);
         (self.steps, self.told_at, self.stirred) = (*steps, *told_at, *stirred);
         (self.escaped, self.saturations) = (*escaped, *saturations);
         Ok(())

@@ -5,8 +5,8 @@
 
 use super::World;
 use crate::body::BodyDef;
-use crate::config::Config;
-use crate::effects::Effects;
+use crate::config::{Config, Level};
+use crate::effects::{Effects, Switches};
 use crate::error::Error;
 use crate::scalar::Scalar;
 use crate::vec2::Vec2;
@@ -34,7 +34,7 @@ impl<S: Scalar> World<'_, S> {
         self.called_for | self.config.called_for()
     }
 
-    /// Promises that nothing but these effects will be called for: what does is refused from now on, until
+    /// Promises that nothing but these effects, and this level if there is one, will be called for: what does is refused from now on, until
     /// [`clear`](Self::clear). Undeclared worlds take everything.
     ///
     /// ```
@@ -55,9 +55,13 @@ impl<S: Scalar> World<'_, S> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Undeclared`] if something calls for more already. Nothing is declared then.
-    pub fn declare(&mut self, effects: impl Into<Effects>) -> Result<(), Error<S>> {
-        let effects = effects.into();
+    /// [`Error::Undeclared`] if something calls for more already, [`Error::OtherLevel`] if the switches have one level and the
+    /// settings another. Nothing is declared then.
+    pub fn declare(&mut self, switches: impl Switches) -> Result<(), Error<S>> {
+        let effects = switches.effects();
+        if let Some(declared) = switches.level() {
+            Self::check_level(self.config.level, declared)?;
+        }
         Self::check(None, self.config.called_for(), effects)?;
         let mut called_for = Effects::NONE;
         for (slot, body) in self.slots_from(0) {
@@ -65,7 +69,7 @@ impl<S: Scalar> World<'_, S> {
             Self::check(Some(slot), calls, effects)?;
             called_for = called_for | calls;
         }
-        (self.called_for, self.declared) = (called_for, Some(effects));
+        (self.called_for, self.declared, self.declared_level) = (called_for, Some(effects), switches.level());
         Ok(())
     }
 
@@ -79,6 +83,10 @@ impl<S: Scalar> World<'_, S> {
     /// Whether a body, or the settings where there is none, may call for effects.
     pub(super) fn check_declared(&self, slot: Option<u16>, effects: Effects) -> Result<(), Error<S>> {
         self.declared.map_or(Ok(()), |declared| Self::check(slot, effects, declared))
+    }
+
+    pub(super) fn check_level(configured: Level, declared: Level) -> Result<(), Error<S>> {
+        if configured == declared { Ok(()) } else { Err(Error::OtherLevel { configured, declared }) }
     }
 
     fn check(slot: Option<u16>, effects: Effects, declared: Effects) -> Result<(), Error<S>> {

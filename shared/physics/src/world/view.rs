@@ -131,6 +131,11 @@ impl<S: Scalar> World<'_, S> {
         (slot..self.used).zip(bodies).filter(|(_, body)| body.status.is_taken())
     }
 
+    /// All bodies, empty slots among them.
+    pub(crate) fn slots(&self) -> &[Body<S>] {
+        &self.bodies[..usize::from(self.used)]
+    }
+
     fn view(&self, slot: u16, body: &Body<S>) -> BodyView<S> {
         BodyView {
             handle: self.handle(slot),
