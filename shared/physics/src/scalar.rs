@@ -150,6 +150,8 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     /// A centre after one step at `velocity`, |component| <= [`SPEED_LIMIT`]; `remainder` carries what rounding would lose to
     /// the next step, in 1/256 of the format's resolution with the sign of the motion (floats leave it alone).
     fn advance(position: Self::Real, remainder: &mut i16, velocity: Self::Speed) -> Self::Real;
+    /// How far a motion leads, in 2^-14 px along the longer axis: never too little, at least 1 and at most twice too much.
+    fn creep(motion: Vec2<Self::Speed>) -> u16;
     /// Speed along a unit vector: the scalar product, saturating.
     fn speed_along(velocity: Vec2<Self::Speed>, direction: Vec2<Self::Unit>) -> Self::Speed;
     /// Component of a speed along one axis of a unit vector, or its share.

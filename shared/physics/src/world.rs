@@ -34,8 +34,8 @@ pub struct Storage<S: Scalar, const BODIES: usize, const CONTACTS: usize, const 
     contacts: [Contact<S>; CONTACTS],
     /// Velocities at the start of a step.
     before: [Vec2<S::Speed>; BODIES],
-    /// Lists of the broadphase.
-    lists: [[u16; BODIES]; 4],
+    /// Lists of the broadphase, and how far bodies have crept.
+    lists: [[u16; BODIES]; 5],
     tiles: [u8; TILES],
 }
 
@@ -48,14 +48,14 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             profiles: [Profile::EMPTY; BODIES],
             contacts: [Contact::EMPTY; CONTACTS],
             before: [vec2(S::Speed::ZERO, S::Speed::ZERO); BODIES],
-            lists: [[0; BODIES]; 4],
+            lists: [[0; BODIES]; 5],
             tiles: [0; TILES],
         }
     }
 
     /// An empty world with default settings on this storage; whatever an earlier one held is gone.
     pub fn world(&mut self) -> World<'_, S> {
-        let [order, links, groups, entries] = &mut self.lists;
+        let [order, links, groups, entries, crept] = &mut self.lists;
         let mut world = World {
             config: Config::default(),
             gravity: Vec2::default(),
@@ -64,6 +64,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             profiles: &mut self.profiles,
             pool: Pool::new(&mut self.contacts),
             before: &mut self.before,
+            crept,
             layers: Layers::new(order, links, groups, entries),
             tiles: TileMap::new(&mut self.tiles),
             terrain: NO_TERRAIN,
@@ -110,6 +111,8 @@ pub struct World<'a, S: Scalar> {
     pub(crate) pool: Pool<'a, S>,
     /// Velocities at the start of the step, by slot.
     pub(crate) before: &'a mut [Vec2<S::Speed>],
+    /// How far each body has moved since its contacts were last looked at, by slot: see [`Scalar::creep`].
+    pub(crate) crept: &'a mut [u16],
     pub(crate) layers: Layers<'a>,
     pub(crate) tiles: TileMap<'a>,
     /// The slot that stands for the tile map, with its surface and layers.

@@ -13,7 +13,7 @@ use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
 /// Passes over the contacts: back and forth, so that an impact runs through a row in either direction, and its echo back.
-const PASSES: usize = 6;
+const PASSES: usize = 4;
 
 /// Lets contacts bounce.
 pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed>) {

@@ -12,6 +12,9 @@ use crate::scalar::{Quantity, Scalar};
 use crate::vec2::Vec2;
 use crate::world::World;
 
+/// How far a body creeps before its contacts are looked at again, as [`Scalar::creep`] counts: 2^-11 px, a fortieth of the slop.
+const CREEP: u16 = 8;
+
 /// What gravity adds to a velocity in a step, where it is on.
 pub(crate) fn gravity<S: Scalar>(world: &World<'_, S>, switches: impl Switches) -> Vec2<S::Speed> {
     if switches.on(Effects::GRAVITY) { world.gravity } else { Vec2::default() }
@@ -65,7 +68,7 @@ pub(crate) fn hold_kinematic<S: Scalar>(world: &mut World<'_, S>, switches: impl
 /// Moves every body by its velocity, which is first held within the speed limit.
 pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let averaged = world.level(switches) != Level::Flat;
-    let (mut farthest, mut fastest) = (S::Speed::ZERO, S::Speed::ZERO);
+    let mut fastest = S::Speed::ZERO;
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
         let before = world.before[usize::from(slot)];
@@ -73,33 +76,34 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
         if body.velocity == Vec2::default() && before == Vec2::default() && body.push == 0 {
             continue;
         }
-        if !S::is_tame(body.velocity, body.velocity, S::Speed::ZERO) {
+        if !body.velocity.x.is_within(fastest) || !body.velocity.y.is_within(fastest) {
             hold(body, &mut world.saturations);
+            fastest = larger(fastest, body.velocity);
         }
-        let velocity = body.velocity;
         let mut motion = motion(body, before, averaged);
         if body.push != 0 {
             motion = motion.map(|v| S::uncut(v, body.push));
             body.push = 0;
         }
         if body.advance(motion) {
-            body.marks.set(Marks::MOVED);
+            // What creeps is looked at once it has come somewhere.
+            let crept = &mut world.crept[usize::from(slot)];
+            *crept = crept.saturating_add(S::creep(motion));
+            if *crept >= CREEP {
+                *crept = 0;
+                body.marks.set(Marks::MOVED);
+            }
         }
-        farthest = larger(farthest, motion);
-        fastest = larger(fastest, velocity);
     }
+    // Nobody has moved faster than at the start or at the end of the step.
+    world.travel = world.travel.saturating_add(fastest.greater(world.fastest));
     world.fastest = fastest;
-    world.travel = world.travel.saturating_add(farthest);
 }
 
-/// The largest of a speed and a velocity's components. Nearly all are smaller than the largest so far: that is asked first.
+/// The largest of a speed and a velocity's components.
 #[inline]
 pub(crate) fn larger<T: Quantity>(speed: T, velocity: Vec2<T>) -> T {
-    if velocity.x.is_within(speed) && velocity.y.is_within(speed) {
-        speed
-    } else {
-        speed.greater(velocity.x.abs()).greater(velocity.y.abs())
-    }
+    speed.greater(velocity.x.abs()).greater(velocity.y.abs())
 }
 
 /// How far a body moves in this step, `before` being its velocity when the step began.
@@ -118,7 +122,6 @@ pub(crate) fn motion<S: Scalar>(body: &Body<S>, before: Vec2<S::Speed>, averaged
 }
 
 /// Holds a velocity within the speed limit, and counts if that changed it.
-#[cold]
 fn hold<S: Scalar>(body: &mut Body<S>, saturations: &mut u32) {
     let velocity = body.velocity.map(|v| v.held(S::FASTEST));
     if velocity != body.velocity {

@@ -158,6 +158,11 @@ impl Scalar for Fixed {
         I16F16::from_bits(position.to_bits() + whole)
     }
     #[inline]
+    fn creep(motion: Vec2<I8F24>) -> u16 {
+        let length = motion.x.to_bits().unsigned_abs() | motion.y.to_bits().unsigned_abs();
+        (length >> 10).min(0x7fff) as u16 + 1
+    }
+    #[inline]
     fn speed_along(velocity: Vec2<I8F24>, direction: Vec2<I2F30>) -> I8F24 {
         let sum =
             product(velocity.x.to_bits(), direction.x.to_bits()) + product(velocity.y.to_bits(), direction.y.to_bits());

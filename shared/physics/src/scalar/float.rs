@@ -62,6 +62,9 @@ macro_rules! float_scalar {
             fn advance(position: $float, _remainder: &mut i16, velocity: $float) -> $float {
                 position + velocity
             }
+            fn creep(motion: Vec2<$float>) -> u16 {
+                ((motion.x.abs().max(motion.y.abs()) * 16_384.0) as u16).saturating_add(1)
+            }
             #[inline]
             fn speed_along(velocity: Vec2<$float>, direction: Vec2<$float>) -> $float {
                 velocity.x * direction.x + velocity.y * direction.y

@@ -44,6 +44,7 @@ impl<S: Scalar> World<'_, S> {
             profiles,
             pool,
             before,
+            crept,
             layers,
             tiles,
             terrain,
@@ -68,6 +69,7 @@ impl<S: Scalar> World<'_, S> {
         self.bodies.copy_from_slice(bodies);
         self.profiles.copy_from_slice(profiles);
         self.before.copy_from_slice(before);
+        self.crept.copy_from_slice(crept);
         self.pool.copy_from(pool);
         self.layers.copy_from(layers);
         self.terrain = *terrain;
