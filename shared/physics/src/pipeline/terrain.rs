@@ -31,7 +31,13 @@ const LEAST: usize = 2;
 /// How many blocking contacts with the map a body may need before pairs are next looked for. `reach` is how far it may come by
 /// then, px.
 pub(crate) fn room<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, reach: S::Real) -> usize {
-    let count = blocking(tiles, &Outline::of(body), reach, |_| true).len();
+    let (mut count, mut last) = (0, None);
+    tiles.contacts(&Outline::of(body), reach, |contact| {
+        // Of a row of one-way tiles, which are visited one after the other, one counts.
+        let row = contact.tile.flags.is_one_way().then_some(contact.tile.row);
+        count += usize::from(row.is_none() || row != last);
+        last = row;
+    });
     if count == 0 { 0 } else { (count + 1).clamp(LEAST, MOST) }
 }
 
@@ -45,15 +51,15 @@ pub(crate) fn sensors<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, reach: S::
     }
 }
 
-/// Where a shape touches blocking tiles, or comes closer than `reach`: one contact a direction, and one a row of one-way tiles,
+/// Finds where a shape touches blocking tiles, or comes closer than `reach`: one contact a direction, and one a row of one-way tiles,
 /// of those contacts that may count.
 fn blocking<S: Scalar>(
+    found: &mut Vec<TileContact<S>, MOST>,
     tiles: &TileMap<'_>,
     outline: &Outline<S>,
     reach: S::Real,
     may_count: impl Fn(&TileContact<S>) -> bool,
-) -> Vec<TileContact<S>, MOST> {
-    let mut found = Vec::new();
+) {
     let mut rows = 0;
     tiles.contacts(outline, reach, |contact| {
         if contact.tile.flags.is_one_way() {
@@ -77,7 +83,6 @@ fn blocking<S: Scalar>(
         let pushed = found.push(contact);
         debug_assert!(pushed.is_ok(), "there is room for each direction");
     });
-    found
 }
 
 /// A tile's place in the map, row by row.
@@ -120,9 +125,10 @@ pub(crate) fn look<S: Scalar>(
         switches.on(Effects::ONE_WAY)
             && (contact.penetration <= S::real(GRAZE) || places.of_row(contact.tile.row).is_some())
     };
-    let found = blocking(tiles, &outline, narrowphase::reach::<S>(motion), may_count);
+    let mut found = Vec::new();
+    blocking(&mut found, tiles, &outline, narrowphase::reach::<S>(motion), may_count);
     let mut complete = true;
-    for contact in found.into_iter().filter_map(|contact| reachable(tiles, &outline, motion, contact)) {
+    for contact in found.iter().filter_map(|&contact| reachable(tiles, &outline, motion, contact)) {
         let manifold = Manifold::<S>::of(contact.normal, -contact.penetration);
         let one_way = contact.tile.flags.is_one_way();
         let place = if one_way {

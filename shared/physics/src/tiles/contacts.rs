@@ -37,11 +37,8 @@ impl TileMap<'_> {
     /// box that overlaps an outer corner by at most 1/16 px in both directions passes it: it neither lands on that sliver nor
     /// is stopped by it.
     #[inline]
-    pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, visit: impl FnMut(TileContact<S>)) {
-        if outline.circle
-            && let Some(contacts) = self.contacts_around(outline, margin)
-        {
-            contacts.into_iter().flatten().for_each(visit);
+    pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, mut visit: impl FnMut(TileContact<S>)) {
+        if outline.circle && self.contacts_around(outline, margin, &mut visit) {
             return;
         }
         let reach = outline.half.map(|half| half.saturating_add(margin));
@@ -55,20 +52,27 @@ impl TileMap<'_> {
     }
 
     /// The common case: a circle no larger than a tile, with its centre in a free place inside the map, reaches at most the tile
-    /// beside that place, the one above or below it and the one between those. Their faces towards it exist. None if it
-    /// isn't that case.
+    /// beside that place, the one above or below it and the one between those. Their faces towards it exist. False if it
+    /// isn't that case, and nothing was visited.
     #[inline]
-    fn contacts_around<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real) -> Option<[Option<TileContact<S>>; 3]> {
+    fn contacts_around<S: Scalar>(
+        &self,
+        outline: &Outline<S>,
+        margin: S::Real,
+        visit: &mut impl FnMut(TileContact<S>),
+    ) -> bool {
         let (columns, rows) = self.axes();
         let (centre, radius) = (outline.centre, outline.half.x);
         let reach = radius.saturating_add(margin);
-        let (column, row) = (columns.inner(S::floor(centre.x))?, rows.inner(S::floor(centre.y))?);
+        let (Some(column), Some(row)) = (columns.inner(S::floor(centre.x)), rows.inner(S::floor(centre.y))) else {
+            return false;
+        };
         let (left, right) = (centre.x - columns.edge::<S>(column), columns.edge::<S>(column + 1) - centre.x);
         let (top, bottom) = (centre.y - rows.edge::<S>(row), rows.edge::<S>(row + 1) - centre.y);
         let (to_left, to_right, up, down) = (left <= reach, right <= reach, top <= reach, bottom <= reach);
         let on_edge = left == S::Real::ZERO || top == S::Real::ZERO;
         if on_edge || (to_left && to_right) || (up && down) {
-            return None;
+            return false;
         }
         let (next, level, aside) =
             if to_left { (column - 1, Side::Right, left) } else { (column + 1, Side::Left, right) };
@@ -80,27 +84,28 @@ impl TileMap<'_> {
         let between = if near && far { self.bits(next, over) } else { 0 };
         let all = own | beside | above | between;
         if all & BLOCKING == 0 {
-            return Some([None; 3]);
+            return true;
         }
         if is_solid(own) || all & TileFlags::ONE_WAY.bits() != 0 {
-            return None;
+            return false;
         }
-        let face = |bits: u8, side: Side, gap: S::Real, column: u32, row: u32| {
-            is_solid(bits).then(|| TileContact {
-                normal: side.inward::<S>(),
-                penetration: radius - gap,
-                tile: Tile::new(column, row, bits),
-            })
-        };
-        let faces = [face(beside, level, aside, next, row), face(above, upright, away, column, over)];
-        let corner = if faces[0].is_none() && faces[1].is_none() && is_solid(between) {
+        let mut meets_face = false;
+        for (bits, side, gap, column, row) in [(beside, level, aside, next, row), (above, upright, away, column, over)]
+        {
+            if is_solid(bits) {
+                let tile = Tile::new(column, row, bits);
+                visit(TileContact { normal: side.inward::<S>(), penetration: radius - gap, tile });
+                meets_face = true;
+            }
+        }
+        if !meets_face && is_solid(between) {
             let probe = Probe::near(outline, margin);
             let offset = vec2(if to_left { -left } else { right }, if up { -top } else { bottom });
-            self.circle_on_corner(&probe, Tile::new(next, over, between), offset, level, upright).map(|c| c.contact)
-        } else {
-            None
-        };
-        Some([faces[0], faces[1], corner])
+            if let Some(corner) = self.circle_on_corner(&probe, Tile::new(next, over, between), offset, level, upright) {
+                visit(corner.contact);
+            }
+        }
+        true
     }
 
     #[inline(never)]
