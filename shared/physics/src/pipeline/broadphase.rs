@@ -297,7 +297,9 @@ impl<S: Scalar> Near<S> {
         // Most are too far aside: that is asked first.
         let apart = |offset: S::Real, reach: S::Real, own: S::Speed, other: S::Speed| {
             let space = offset.abs() - reach;
-            space > S::Real::ZERO && space > S::in_a_step(other.saturating_sub(own)).abs()
+            // The other may be stopped in this step: then the own speed counts.
+            let speed = other.saturating_sub(own).abs().greater(own.abs());
+            space > S::Real::ZERO && space > S::in_a_step(speed)
         };
         !apart(other.position.x - self.centre.x, self.reach.x + other.half.x, self.velocity.x, other.velocity.x)
             && !apart(other.position.y - self.centre.y, self.reach.y + other.half.y, self.velocity.y, other.velocity.y)
