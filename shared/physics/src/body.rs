@@ -333,6 +333,8 @@ impl Marks {
     pub(crate) const STIRRED: Self = Self::ASLEEP;
     /// Forces wait for the next step.
     pub(crate) const FORCED: Self = Self(1 << 6);
+    /// Was [`GROUNDED`](Self::GROUNDED) in the last step. Known while velocities are solved, when no forces wait.
+    pub(crate) const STOOD: Self = Self::FORCED;
     /// Swept in this step.
     pub(crate) const FAST: Self = Self(1 << 7);
 

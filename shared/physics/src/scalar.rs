@@ -172,6 +172,8 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn is_tame(a: Vec2<Self::Speed>, b: Vec2<Self::Speed>, impulse: Self::Speed) -> bool;
     /// Whether a change of velocity is too small to be worth making: below 2^-18 px/step (0.0002 px/s) along both axes.
     fn is_negligible(change: Vec2<Self::Speed>) -> bool;
+    /// Whether the difference of two velocities is [negligible](Self::is_negligible), tame or not.
+    fn is_nearly_same(a: Vec2<Self::Speed>, b: Vec2<Self::Speed>) -> bool;
     /// Components of a tame vector along a unit normal (x) and along the normal turned by a quarter (y). Each product is rounded
     /// down to the format's resolution.
     fn into_frame(vector: Vec2<Self::Speed>, normal: Vec2<Self::Unit>) -> Vec2<Self::Speed>;
@@ -185,6 +187,8 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn coulomb(normal: Self::Speed, friction: u16) -> Self::Speed;
     /// `speed / slope` for a slope of 1/2..=1, to 1e-4 and never more than that.
     fn over_slope(speed: Self::Speed, slope: Self::Unit) -> Self::Speed;
+    /// `speed / share` for a share above 0, saturating.
+    fn over_share(speed: Self::Speed, share: Self::Unit) -> Self::Speed;
     /// A speed after (or before, where `accelerations` is negative) falling: `sqrt(speed^2 + 2 acceleration distance)`; 0 if that
     /// is not real.
     fn fallen(speed: Self::Speed, acceleration: Self::Speed, distance: Self::Speed) -> Self::Speed;

@@ -48,6 +48,11 @@ impl Seen {
             }
         }
     }
+    /// Whether one is a circle that overlaps a corner of the other, a static box, by so little that it isn't a contact if the
+    /// circle lies on a face that is flush with it.
+    fn may_graze(&self, other: &Self) -> bool {
+        self.circle != other.circle && (self.fixed || other.fixed) && (0.0..=1.0 / 16.0).contains(&self.depth(other))
+    }
 }
 
 fn found(world: &World<'_, Fixed>) -> BTreeSet<Pair> {
@@ -111,6 +116,9 @@ proptest! {
                     continue;
                 }
                 let (depth, pair) = (first.depth(second), (a as u16, b as u16));
+                if first.may_graze(second) {
+                    continue;
+                }
                 // Boxes are exact. The distance of round shapes is rounded to the last place, 2^-16 px.
                 if depth.abs() > 1.6e-5 || (!first.circle && !second.circle) {
                     prop_assert_eq!(found.contains(&pair), depth >= 0.0, "{:?}: depth {}", pair, depth);
@@ -140,17 +148,20 @@ proptest! {
             handles.push((world.spawn(&def).unwrap(), def));
             Stage::Detect.run(&mut world, Effects::NONE);
             let found = found(&world);
-            let mut expected = BTreeSet::new();
+            let (mut expected, mut grazing) = (BTreeSet::new(), BTreeSet::new());
             for (index, (a, first)) in handles.iter().enumerate() {
                 for (b, second) in &handles[index + 1..] {
                     let (first, second) = (Seen::of(first), Seen::of(second));
-                    if !(first.fixed && second.fixed) && first.depth(&second) >= 0.0 {
-                        expected.insert((a.slot().min(b.slot()), a.slot().max(b.slot())));
+                    let pair = (a.slot().min(b.slot()), a.slot().max(b.slot()));
+                    if first.may_graze(&second) {
+                        grazing.insert(pair);
+                    } else if !(first.fixed && second.fixed) && first.depth(&second) >= 0.0 {
+                        expected.insert(pair);
                     }
                 }
             }
-            let missing: Vec<_> = expected.symmetric_difference(&found).collect();
-            prop_assert!(missing.is_empty(), "{missing:?}");
+            let wrong: Vec<_> = expected.symmetric_difference(&found).filter(|pair| !grazing.contains(pair)).collect();
+            prop_assert!(wrong.is_empty(), "{wrong:?}");
         }
     }
 }
@@ -178,17 +189,22 @@ fn bodies_that_exactly_touch_are_in_contact_and_a_shared_corner_is_none() {
 }
 
 #[test]
-fn bodies_with_one_centre_get_a_normal() {
+fn bodies_with_one_centre_part_each_on_its_own_way() {
     for shape in [Shape::Circle { radius: px(5) }, Shape::Box { half: vec2(px(5), px(5)) }] {
-        let mut storage = Storage::<Fixed, 2, 4>::new();
+        let mut storage = Storage::<Fixed, 4, 8>::new();
         let mut world = storage.world();
-        for _ in 0..2 {
+        for _ in 0..4 {
             world.spawn(&BodyDef::<Fixed>::rigid(shape, vec2(px(0), px(0)))).unwrap();
         }
         Stage::Detect.run(&mut world, Effects::NONE);
-        let contact = world.contacts().next().unwrap();
-        assert_eq!((contact.normal.x.to_num::<f64>(), contact.normal.y.to_num::<f64>()), (0.0, 1.0));
-        assert_eq!(contact.penetration, px(10));
+        let mut ways = BTreeSet::new();
+        for contact in world.contacts() {
+            let n = [contact.normal.x.to_num::<f64>(), contact.normal.y.to_num::<f64>()];
+            assert!((n[0].hypot(n[1]) - 1.0).abs() < 2e-8, "normal {n:?}");
+            assert_eq!(contact.penetration, px(10));
+            ways.insert(n.map(|n| (1e6 * n) as i64));
+        }
+        assert!(ways.len() > 1, "{ways:?}");
     }
 }
 

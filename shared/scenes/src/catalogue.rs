@@ -46,7 +46,7 @@ const COMMON: Scene = Scene {
     total: |parameters| parameters.bodies + 1,
     contacts: |parameters, level| match level {
         // Stacks sink in until far neighbours touch.
-        Level::Flat => 16 * parameters.bodies + 8,
+        Level::Flat => 17 * parameters.bodies + 8,
         Level::Grounded | Level::Exact => 4 * parameters.bodies + 8,
     },
     body: |_, _| floor(px(0)),

@@ -205,7 +205,7 @@ fn a_world_that_is_too_small_keeps_what_it_has() {
     assert_eq!(
         drop.build(&one, Level::Flat, &mut world),
         Err(BuildError::Capacity {
-            needed: Capacity { bodies: 2, contacts: 24 },
+            needed: Capacity { bodies: 2, contacts: 25 },
             available: Capacity { bodies: 8, contacts: 8 },
         })
     );

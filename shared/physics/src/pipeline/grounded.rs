@@ -1,19 +1,23 @@
 //! Impulses, levels Grounded and Exact.
 //!
 //! 1. *Warm start*: every contact begins with the impulse that it ended the last step with (E. Catto, "Iterative Dynamics with
-//!    Temporal Coherence", 2005).
+//!    Temporal Coherence", 2005). It runs from the top down: a body that stood on one other alone hands down what it lacks for
+//!    standing on, so that each contact of a column knows the load above it at once.
 //! 2. *Iterations*: accumulated impulses. With relative velocity v and gap d, a contact asks for `v.n + d >= 0` and may push,
 //!    never pull: `dn = max(-(v.n + d), -N)`, where N is its impulse so far. Friction keeps `|T| <= mu N`.
 //! 3. *Shock*: one pass from the ground up. Where a chain of contacts carries a body down to something immovable, the body below
 //!    counts as immovable too (after E. Guendelman, R. Bridson and R. Fedkiw, "Nonconvex Rigid Bodies with Stacking", 2003). The
 //!    push goes along gravity alone, so that a slanted contact doesn't drive a heap sideways.
 
+use ::fixed::types::I16F16;
+
 use crate::body::{Body, Marks};
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
 use crate::pipeline::narrowphase::GRAZE;
+use crate::pipeline::order::Ground;
 use crate::pipeline::pairs::NONE;
-use crate::scalar::{Quantity, Scalar, px};
+use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
@@ -22,7 +26,11 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
     let friction = switches.on(Effects::FRICTION);
     warm_start(world, friction);
     for _ in 0..world.config.velocity_iterations {
-        for_each_live(world, |contact, a, b| visit(contact, a, b, friction));
+        let mut changed = false;
+        for_each_live(world, |contact, a, b| changed |= visit(contact, a, b, friction));
+        if !changed {
+            break; // nor would the next
+        }
     }
     shock(world);
 }
@@ -54,12 +62,35 @@ fn for_each_live<S: Scalar>(
     }
 }
 
-/// Applies the impulses of the last step. Deeply pressed contacts start with half of theirs: after a crush, bodies would shoot out.
+/// Applies the impulses of the last step, from the top down. Deeply pressed contacts start with half of theirs: after a crush,
+/// bodies would shoot out.
 fn warm_start<S: Scalar>(world: &mut World<'_, S>, friction: bool) {
+    let ground = world.layers.ground();
     let crushed = S::per_step(S::real(px(-1)));
-    for_each_live(world, |contact, a, b| {
+    let World { pool, bodies, before, .. } = world;
+    let contacts = pool.all_mut();
+    let mut upper = NONE;
+    let (mut a, mut bearing) = (Vec2::default(), Bearing::None);
+    for place in (0..contacts.len()).rev() {
+        let contact = &mut contacts[place];
+        if contact.flags.has(Flags::FAR) {
+            continue;
+        }
+        if contact.a != upper {
+            let next = contact.a;
+            if upper != NONE {
+                hand_down(contacts, bearing, &mut a, bodies, before, ground);
+                bodies[usize::from(upper)].velocity = a;
+            }
+            upper = next;
+            (a, bearing) = (bodies[usize::from(upper)].velocity, Bearing::None);
+        }
+        let contact = &mut contacts[place];
+        if contact.flags.has(Flags::BEARS) {
+            bearing = if matches!(bearing, Bearing::None) { Bearing::One(place) } else { Bearing::Many };
+        }
         if contact.impulse.x == S::Speed::ZERO {
-            return;
+            continue;
         }
         if contact.gap < crushed {
             contact.impulse = contact.impulse.map(S::half_speed);
@@ -67,32 +98,99 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, friction: bool) {
         if !friction {
             contact.impulse.y = S::Speed::ZERO;
         }
+        let b = &mut bodies[usize::from(contact.b)].velocity;
         let change = contact.impulse;
-        (*a, *b) = if S::is_tame(*a, *b, change.x) {
-            pushed_apart(contact, change, *a, *b)
+        (a, *b) = if S::is_tame(a, *b, change.x) {
+            pushed_apart(contact, change, a, *b)
         } else {
-            pushed_apart_widely(contact, change, *a, *b)
+            pushed_apart_widely(contact, change, a, *b)
         };
-    });
+    }
+    if upper != NONE {
+        hand_down(contacts, bearing, &mut a, bodies, before, ground);
+        bodies[usize::from(upper)].velocity = a;
+    }
 }
 
-/// Changes the velocities as a contact calls for.
+/// The contacts that bear a body.
+#[derive(Clone, Copy)]
+enum Bearing {
+    None,
+    /// One alone, by its place in the pool.
+    One(usize),
+    Many,
+}
+
+/// What a body that stood lacks for staying on the only one that bears it, that one has to carry.
 #[inline(always)] // into the loop over contacts
-fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Vec2<S::Speed>, friction: bool) {
+fn hand_down<S: Scalar>(
+    contacts: &mut [Contact<S>],
+    bearing: Bearing,
+    a: &mut Vec2<S::Speed>,
+    bodies: &mut [Body<S>],
+    before: &[Vec2<S::Speed>],
+    ground: Ground,
+) {
+    let Bearing::One(place) = bearing else { return };
+    let contact = &mut contacts[place];
+    let stood = bodies[usize::from(contact.a)].marks.has(Marks::STOOD);
+    if !stood || contact.impulse.x <= S::Speed::ZERO || !contact.flags.has(Flags::AXIS) {
+        return;
+    }
+    let lower = usize::from(contact.b);
+    let b = &mut bodies[lower].velocity;
+    let firm = if contact.flags.has(Flags::IMMOVABLE) { *b } else { before[lower] };
+    if !S::is_nearly_same(*a, firm) {
+        (*a, *b) = hand(contact, ground.depth(firm), ground, *a, *b);
+    }
+}
+
+/// Lets a contact carry what brings the upper body to the speed towards the ground that the lower one had.
+#[cold]
+#[inline(never)]
+fn hand<S: Scalar>(
+    contact: &mut Contact<S>,
+    firm: S::Speed,
+    ground: Ground,
+    a: Vec2<S::Speed>,
+    b: Vec2<S::Speed>,
+) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
+    let zero = S::Speed::ZERO;
+    // What little the lower one moved is noise, which mustn't travel up and down.
+    let firm = if firm.is_within(S::per_step(S::real(ratio(1, 1024)))) { zero } else { firm };
+    let excess = ground.depth(a).saturating_sub(firm);
+    if S::is_negligible(vec2(excess, zero)) {
+        return (a, b);
+    }
+    let change = if contact.flags.has(Flags::IMMOVABLE) {
+        excess
+    } else if contact.flags.has(Flags::EVEN) {
+        excess.saturating_add(excess)
+    } else {
+        S::over_share(excess, contact.share)
+    };
+    let change = change.lesser(S::MOST_IMPULSE - contact.impulse.x).greater(-contact.impulse.x);
+    contact.impulse.x = contact.impulse.x + change;
+    pushed_apart_widely(contact, vec2(change, zero), a, b)
+}
+
+/// Changes the velocities as a contact calls for; whether it did.
+#[inline(always)] // into the loop over contacts
+fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Vec2<S::Speed>, friction: bool) -> bool {
     let zero = S::Speed::ZERO;
     let pushed = contact.impulse;
+    if S::is_nearly_same(*a, *b) && (contact.gap <= zero || pushed.x == zero) {
+        return false; // most contacts at rest
+    }
     if !S::is_tame(*a, *b, pushed.x) {
         (*a, *b) = visit_widely(contact, *a, *b, friction);
-        return;
+        return true;
     }
     // Tame speeds are below 23 px/step, tame impulses below 32, gaps at most 100: no sum here leaves the format.
     let velocity = contact.in_frame(*b - *a);
     let short = velocity.x + contact.gap.greater(zero);
     if short >= zero && pushed.x == zero {
-        return;
-    }
-    if S::is_negligible(vec2(short, velocity.y)) {
-        return; // most contacts at rest
+        return false;
     }
     let mut change = vec2((-short).greater(-pushed.x), zero);
     let along_normal = pushed.x + change.x;
@@ -102,10 +200,11 @@ fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Ve
         change.y = along_tangent - pushed.y;
     }
     if S::is_negligible(change) {
-        return;
+        return false;
     }
     contact.impulse = vec2(along_normal, along_tangent);
     (*a, *b) = pushed_apart(contact, change, *a, *b);
+    true
 }
 
 /// Tame velocities after a tame change of their difference, each by its share.
@@ -185,6 +284,8 @@ fn pushed_apart_widely<S: Scalar>(
 fn shock<S: Scalar>(world: &mut World<'_, S>) {
     let ground = world.layers.ground();
     let (zero, graze) = (S::Speed::ZERO, S::per_step(S::real(GRAZE)));
+    // What parts more slowly than by the resolution of positions in a step hasn't parted.
+    let adrift = S::per_step(S::real(I16F16::DELTA));
     let World { pool, bodies, .. } = world;
     let mut upper = NONE;
     let (mut a, mut marks) = (Vec2::default(), Marks::default());
@@ -209,14 +310,16 @@ fn shock<S: Scalar>(world: &mut World<'_, S>) {
             marks.set(held);
             b.marks.set(held);
         }
-        let firm = contact.flags.has(Flags::IMMOVABLE) || b.marks.has(Marks::GROUNDED);
-        if !firm || !contact.flags.has(Flags::CONNECTS) {
+        if !contact.flags.has(Flags::CONNECTS) {
+            continue;
+        }
+        if !contact.flags.has(Flags::IMMOVABLE) && !b.marks.has(Marks::GROUNDED) {
             continue;
         }
         if pushes || contact.gap <= graze {
             marks.set(Marks::GROUNDED);
         }
-        if !contact.flags.has(Flags::BEARS) {
+        if !contact.flags.has(Flags::BEARS) || (contact.gap <= zero && a == b.velocity) {
             continue;
         }
         let velocity = if S::is_tame(a, b.velocity, zero) {
@@ -225,7 +328,7 @@ fn shock<S: Scalar>(world: &mut World<'_, S>) {
             wide_frame(contact, a, b.velocity)
         };
         let short = velocity.x.saturating_add(contact.gap.greater(zero));
-        if short < zero {
+        if short < if pushes { adrift } else { zero } {
             let lift =
                 if contact.flags.has(Flags::AXIS) { short } else { S::over_slope(short, ground.depth(contact.normal)) };
             ground.lower(&mut a, lift);

@@ -37,7 +37,11 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
             velocity = velocity.saturating_add(world.before[usize::from(slot)]);
         }
         world.before[usize::from(slot)] = before;
+        let stood = body.marks.has(Marks::GROUNDED);
         body.marks.clear(Marks::HELD_X.or(Marks::HELD_Y).or(Marks::GROUNDED).or(Marks::FORCED).or(Marks::FAST));
+        if stood {
+            body.marks.set(Marks::STOOD);
+        }
         body.push = 0;
         if !body.status.is_rigid() {
             continue;
@@ -72,7 +76,7 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
         let before = world.before[usize::from(slot)];
-        body.marks.clear(Marks::MOVED.or(Marks::JOLTED));
+        body.marks.clear(Marks::MOVED.or(Marks::JOLTED).or(Marks::STOOD));
         if body.velocity == Vec2::default() && before == Vec2::default() && body.push == 0 {
             continue;
         }

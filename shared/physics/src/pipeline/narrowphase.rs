@@ -3,6 +3,8 @@
 //! Bodies that exactly touch are in contact, with a gap of 0; boxes that share only a corner are not. A contact is live before
 //! its bodies touch, from as far away as they may come in this step, so that the solver can stop them at the surface.
 
+use ::fixed::types::I16F16;
+
 use crate::body::{Body, Marks};
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
@@ -13,10 +15,10 @@ use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
 /// Overlap along the surface that two boxes need to block each other: less is the seam between two floors, not a wall.
-pub(crate) const GRAZE: ::fixed::types::I16F16 = ratio(1, 16);
+pub(crate) const GRAZE: I16F16 = ratio(1, 16);
 
 /// How far apart slow bodies may be and still be in contact, px.
-const MARGIN: ::fixed::types::I16F16 = ratio(1, 4);
+const MARGIN: I16F16 = ratio(1, 4);
 
 /// How two bodies lie: unit normal from the first to the second, and the distance along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +39,7 @@ impl<S: Scalar> Manifold<S> {
 pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let ground = world.layers.ground();
     let World { pool, bodies, terrain, deep, .. } = world;
-    let mut with_terrain = false;
+    let (mut with_terrain, mut at_corner) = (false, false);
     for contact in pool.all_mut() {
         let (a, b) = (&bodies[usize::from(contact.a)], &bodies[usize::from(contact.b)]);
         if !(a.marks.or(b.marks).has(Marks::MOVED) || contact.flags.has(Flags::NEW)) {
@@ -48,7 +50,7 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             continue;
         }
         contact.flags.forget_geometry();
-        let mut manifold = near(a, b);
+        let mut manifold = near(a, b, || scattered::<S>(contact.b) - scattered::<S>(contact.a));
         if switches.on(Effects::ONE_WAY) && b.status.is_one_way() {
             manifold = one_way::hold(&mut contact.flags, manifold, a, b, ground);
         }
@@ -56,6 +58,7 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             leave(contact);
             continue;
         };
+        at_corner |= b.status.is_static() && manifold.axis.is_none() && !b.status.is_circle();
         write(contact, &manifold, ground);
         *deep |= contact.gap < ccd::deep::<S>();
         // No pass after this one looks at what is far: so sensors notice and never block, and cost no pass anything.
@@ -63,8 +66,45 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             contact.flags.set(Flags::FAR);
         }
     }
+    if at_corner {
+        close_seams(world);
+    }
     if with_terrain {
         refresh_terrain(world, switches);
+    }
+}
+
+/// A circle that lies on the face of a static box rolls over corners of others that are flush with it.
+#[cold]
+#[inline(never)]
+fn close_seams<S: Scalar>(world: &mut World<'_, S>) {
+    let World { pool, bodies, .. } = world;
+    let graze = S::real(GRAZE);
+    let is_static_box = |contact: &Contact<S>| {
+        let status = bodies[usize::from(contact.b)].status;
+        status.is_static() && !status.is_circle() && !contact.flags.has(Flags::FAR)
+    };
+    for group in pool.all_mut().chunk_by_mut(|one, next| one.a == next.a) {
+        for place in 0..group.len() {
+            let corner = &group[place];
+            if corner.flags.has(Flags::AXIS) || !is_static_box(corner) || corner.gap <= -S::per_step(graze) {
+                continue;
+            }
+            let box_there = &bodies[usize::from(corner.b)];
+            let is_flush = |face: &Contact<S>| {
+                let box_here = &bodies[usize::from(face.b)];
+                let (slope, step) = match face.flags.axis() {
+                    Axis::Down => (corner.normal.y, box_there.top() - box_here.top()),
+                    Axis::Up => (-corner.normal.y, box_here.bottom() - box_there.bottom()),
+                    Axis::Right => (corner.normal.x, box_there.left() - box_here.left()),
+                    Axis::Left => (-corner.normal.x, box_here.right() - box_there.right()),
+                };
+                face.gap <= S::per_step(graze) && slope > S::Unit::ZERO && step >= -graze
+            };
+            if group.iter().any(|face| face.flags.has(Flags::AXIS) && is_static_box(face) && is_flush(face)) {
+                leave(&mut group[place]);
+            }
+        }
     }
 }
 
@@ -117,15 +157,52 @@ fn flags<S: Scalar>(manifold: &Manifold<S>, ground: Ground) -> Flags {
 
 /// How two bodies lie; none if they can't touch in this step.
 #[inline]
-pub(crate) fn near<S: Scalar>(a: &Body<S>, b: &Body<S>) -> Option<Manifold<S>> {
+pub(crate) fn near<S: Scalar>(
+    a: &Body<S>,
+    b: &Body<S>,
+    scattered: impl FnOnce() -> Vec2<S::Real>,
+) -> Option<Manifold<S>> {
     let offset = b.position - a.position;
-    let closing = (a.velocity.saturating_sub(b.velocity)).map(S::in_a_step);
-    match (a.status.is_circle(), b.status.is_circle()) {
-        (true, true) => circles::<S>(offset, a.half.x + b.half.x, closing),
-        (false, false) => boxes::<S>(offset, a.half + b.half, closing),
-        (true, false) => circle_box::<S>(offset, a.half.x, b.half, closing),
-        (false, true) => circle_box::<S>(-offset, b.half.x, a.half, -closing).map(turned),
+    if offset == Vec2::default() {
+        return Some(coincident(a, b, scattered()));
     }
+    let [va, vb] = [a, b].map(|body| body.velocity.map(S::in_a_step));
+    let closing = va - vb;
+    // Whichever of them something stops in this step, the other may still come as far as its own velocity says.
+    let reach = reach::<S>(closing).greater(reach::<S>(va)).greater(reach::<S>(vb));
+    match (a.status.is_circle(), b.status.is_circle()) {
+        (true, true) => circles::<S>(offset, a.half.x + b.half.x, closing, reach),
+        (false, false) => boxes::<S>(offset, a.half + b.half, closing, reach),
+        (true, false) => circle_box::<S>(offset, a.half.x, b.half, closing, reach),
+        (false, true) => circle_box::<S>(-offset, b.half.x, a.half, -closing, reach).map(turned),
+    }
+}
+
+/// Bodies with one centre: `scattered` says which way from the first to the second, where nothing else does.
+#[cold]
+fn coincident<S: Scalar>(a: &Body<S>, b: &Body<S>, scattered: Vec2<S::Real>) -> Manifold<S> {
+    let touch = a.half + b.half;
+    if a.status.is_circle()
+        && b.status.is_circle()
+        && let Some((normal, _)) = S::direction(scattered)
+    {
+        return Manifold { normal, axis: along::<S>(normal), gap: -touch.x };
+    }
+    let upright = if touch.x == touch.y { scattered.y.abs() >= scattered.x.abs() } else { touch.y < touch.x };
+    if upright {
+        Manifold::along(vertical::<S>(scattered), -touch.y)
+    } else {
+        Manifold::along(horizontal::<S>(scattered), -touch.x)
+    }
+}
+
+/// A place in a square of 1/256 px for each slot: what parts bodies that have one centre, each on a way of its own.
+#[cold]
+fn scattered<S: Scalar>(slot: u16) -> Vec2<S::Real> {
+    // Multiplicative hashing (D. Knuth, "The Art of Computer Programming" 3, 6.4) by 2^32 over the golden ratio.
+    let hash = (u32::from(slot) + 1).wrapping_mul(0x9e37_79b9);
+    let coordinate = |bits: u32| S::real(I16F16::from_bits((bits & 0xff) as i32 - 128));
+    vec2(coordinate(hash >> 24), coordinate(hash >> 16))
 }
 
 /// As seen from the other body.
@@ -145,10 +222,15 @@ pub(crate) fn reach<S: Scalar>(closing: Vec2<S::Real>) -> S::Real {
     S::real(MARGIN) + closing.x.abs().greater(closing.y.abs())
 }
 
-/// Circles: along the line of centres. Equal centres part vertically, the first upwards.
+/// Circles: along the line of centres.
 #[inline(always)] // the commonest pair: as a call, detection costs a fifth more
-fn circles<S: Scalar>(offset: Vec2<S::Real>, touch: S::Real, closing: Vec2<S::Real>) -> Option<Manifold<S>> {
-    let limit = touch + reach::<S>(closing);
+fn circles<S: Scalar>(
+    offset: Vec2<S::Real>,
+    touch: S::Real,
+    closing: Vec2<S::Real>,
+    reach: S::Real,
+) -> Option<Manifold<S>> {
+    let limit = touch + reach;
     if !offset.x.is_within(limit) || !offset.y.is_within(limit) {
         return None;
     }
@@ -202,9 +284,13 @@ pub(crate) fn leeway<S: Scalar>(
 
 /// Boxes: along the axis of least overlap, the vertical one if equal.
 #[inline]
-fn boxes<S: Scalar>(offset: Vec2<S::Real>, touch: Vec2<S::Real>, closing: Vec2<S::Real>) -> Option<Manifold<S>> {
+fn boxes<S: Scalar>(
+    offset: Vec2<S::Real>,
+    touch: Vec2<S::Real>,
+    closing: Vec2<S::Real>,
+    reach: S::Real,
+) -> Option<Manifold<S>> {
     let gap = vec2(offset.x.abs() - touch.x, offset.y.abs() - touch.y);
-    let reach = reach::<S>(closing);
     if gap.x > reach || gap.y > reach {
         return None;
     }
@@ -267,6 +353,7 @@ fn circle_box<S: Scalar>(
     radius: S::Real,
     half: Vec2<S::Real>,
     closing: Vec2<S::Real>,
+    reach: S::Real,
 ) -> Option<Manifold<S>> {
     let zero = S::Real::ZERO;
     // From the centre to the closest point of the box.
@@ -279,7 +366,6 @@ fn circle_box<S: Scalar>(
             Manifold::along(horizontal::<S>(offset), gap.x - radius)
         });
     }
-    let reach = reach::<S>(closing);
     if closest.x == zero {
         let gap = closest.y.abs() - radius;
         return (gap <= reach).then(|| Manifold::along(vertical::<S>(closest), gap));
@@ -288,5 +374,5 @@ fn circle_box<S: Scalar>(
         let gap = closest.x.abs() - radius;
         return (gap <= reach).then(|| Manifold::along(horizontal::<S>(closest), gap));
     }
-    circles::<S>(closest, radius, closing)
+    circles::<S>(closest, radius, closing, reach)
 }

@@ -5,14 +5,19 @@
 //! along gravity, and how far each body was pushed is taken into account by those that stand on it. Overlap beyond the slop is
 //! corrected to half of it: else everything would rest on the threshold, and be pushed every other step.
 
+use ::fixed::types::I16F16;
+
 use crate::body::{Body, Marks, PUSH};
 use crate::config::Level;
 use crate::contact::{Contact, Flags};
 use crate::effects::Switches;
 use crate::pipeline::ccd;
 use crate::pipeline::order::Ground;
-use crate::scalar::{Quantity, Scalar};
+use crate::scalar::{Quantity, Scalar, px};
 use crate::world::World;
+
+/// Most that one contact parts bodies by in a step, px: many in one place don't throw each other over a wall.
+const MOST: I16F16 = px(1);
 
 /// One pass over all contacts.
 pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
@@ -22,6 +27,7 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
     let flat = world.level(switches) == Level::Flat;
     let aim = if flat { slop } else { S::half_speed(slop) };
     world.deep = false;
+    let (rest, most) = (S::ONE - bias, S::per_step(S::real(MOST)));
     for contact in world.pool.all() {
         if contact.flags.has(Flags::FAR) {
             continue;
@@ -32,14 +38,16 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             continue;
         }
         world.deep |= contact.gap < ccd::deep::<S>();
-        let correction = S::speed_scaled(depth - aim, bias);
+        // A part of the overlap that was there, and all that this pass has added: a stack rises as one.
+        let old = if flat { depth } else { depth.lesser(-contact.gap) };
+        let correction = depth - aim - S::speed_scaled((old - aim).greater(S::Speed::ZERO), rest);
         let a = &world.bodies[usize::from(contact.a)];
         let b = &world.bodies[usize::from(contact.b)];
         let bears = contact.flags.has(Flags::BEARS) && !flat;
         if bears && a.marks.has(Marks::GROUNDED) && (!b.status.is_rigid() || b.marks.has(Marks::GROUNDED)) {
             lift(contact, correction, world.bodies, ground);
         } else {
-            part(contact, correction, world.bodies, ground);
+            part(contact, if flat { correction } else { correction.lesser(most) }, world.bodies, ground);
         }
     }
 }

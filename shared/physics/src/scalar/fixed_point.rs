@@ -210,6 +210,11 @@ impl Scalar for Fixed {
         ((shifted(change.x) | shifted(change.y)) as u32) >> 7 == 0
     }
     #[inline]
+    fn is_nearly_same(a: Vec2<I8F24>, b: Vec2<I8F24>) -> bool {
+        // Differences are below 2^32: no other one wraps to a value so close to 0.
+        Self::is_negligible(vec2(b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y)))
+    }
+    #[inline]
     fn into_frame(vector: Vec2<I8F24>, normal: Vec2<I2F30>) -> Vec2<I8F24> {
         // Two bits to the left, and the upper half of a product with 2^30 is a product with 1.
         let (x, y) = (vector.x.to_bits() << 2, vector.y.to_bits() << 2);
@@ -255,6 +260,9 @@ impl Scalar for Fixed {
         } else {
             saturated(product(speed, y) >> 29)
         })
+    }
+    fn over_share(speed: I8F24, share: I2F30) -> I8F24 {
+        I8F24::from_bits(saturated(divided(i64::from(speed.to_bits()) << 30, share.to_bits().into())))
     }
     fn fallen(speed: I8F24, acceleration: I8F24, distance: I8F24) -> I8F24 {
         let squared =

@@ -103,6 +103,9 @@ macro_rules! float_scalar {
                 change.x.abs() < LEAST && change.y.abs() < LEAST
             }
             #[inline]
+            fn is_nearly_same(a: Vec2<$float>, b: Vec2<$float>) -> bool {
+                Self::is_negligible(b - a)
+            }
             fn into_frame(vector: Vec2<$float>, normal: Vec2<$float>) -> Vec2<$float> {
                 vec2(vector.x * normal.x + vector.y * normal.y, vector.y * normal.x - vector.x * normal.y)
             }
@@ -125,6 +128,9 @@ macro_rules! float_scalar {
             #[inline]
             fn over_slope(speed: $float, slope: $float) -> $float {
                 speed / slope
+            }
+            fn over_share(speed: $float, share: $float) -> $float {
+                speed / share
             }
             fn fallen(speed: $float, acceleration: $float, distance: $float) -> $float {
                 $sqrt((speed * speed + 2.0 * acceleration * distance).greater(0.0))

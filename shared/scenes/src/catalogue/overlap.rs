@@ -4,7 +4,7 @@ use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects, Fixed, vec2};
 
-use super::{COMMON, at, body, circle, dull, floor, short, square, usual};
+use super::{COMMON, at, body, circle, dull, floor, square, usual};
 use crate::parameters::{Mix, Parameters, Takes};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
@@ -31,8 +31,6 @@ pub(crate) const COINCIDENT: Scene = Scene {
         BodyDef { mass, ..body(shape, at(0, 0), dull(px(0))) }
     },
     promises: |_| apart(),
-    // A column of nine grows by its ends, a little each step.
-    shortfalls: &[short("no deep overlap", 2_100)],
     ..COMMON
 };
 
@@ -46,7 +44,6 @@ pub(crate) const OVERLAPPING: Scene = Scene {
     takes: Takes { gravities: &[600], mixes: &[Mix::Masses, Mix::Shapes], ..Takes::PLACES },
     total: |parameters| parameters.bodies + 1,
     body: overlapping,
-    shortfalls: &[],
     ..COINCIDENT
 };
 

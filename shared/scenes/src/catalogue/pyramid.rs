@@ -3,7 +3,7 @@
 use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects, Fixed, vec2};
 
-use super::{COMMON, STANDING, at, body, dull, floor, settled, short, square, usual};
+use super::{COMMON, STANDING, at, body, dull, floor, settled, square, usual};
 use crate::parameters::{Mix, Parameters, Takes};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
@@ -22,8 +22,6 @@ pub(crate) const SCENE: Scene = Scene {
     takes: Takes { mixes: &[Mix::Masses], ..Takes::ALL },
     body: member,
     promises,
-    // Dropped with gaps it takes a second longer to come to rest.
-    shortfalls: &[short("bitwise still", 150_000)],
     ..COMMON
 };
 

@@ -4,7 +4,7 @@ use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects, Fixed, Shape, vec2};
 
-use super::{COMMON, STANDING, at, body, circle, dull, floor, settled, short, usual};
+use super::{COMMON, STANDING, at, body, circle, dull, floor, settled, usual};
 use crate::parameters::{Mix, Parameters, Takes};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
@@ -22,8 +22,6 @@ pub(crate) const STACK: Scene = Scene {
     takes: Takes { gravities: &[600, 2000], ..Takes::ALL },
     body: |parameters, number| member(parameters, number, EQUAL),
     promises: |parameters| promises(parameters, EQUAL),
-    // The impulses that are told lack what the shock pass holds. Fifty boxes that drop with gaps settle a little late.
-    shortfalls: &[short("load on", 6_000), short("bitwise still", 140_000), short("no deep overlap", 200)],
     ..COMMON
 };
 
@@ -31,7 +29,6 @@ pub(crate) const HEAVY_TOP: Scene = Scene {
     name: "heavy_top",
     purpose: "a box of mass 100 on nine of mass 1",
     sizes: &[],
-    shortfalls: &[],
     takes: Takes { mixes: &[Mix::Sizes, Mix::Shapes], ..STACK.takes },
     body: |parameters, number| member(parameters, number, HUNDRED),
     promises: |parameters| promises(parameters, HUNDRED),
