@@ -7,6 +7,7 @@ use console::style;
 
 use crate::cli::{LevelArg, MOST_STEPS, ScalarArg, seconds};
 use crate::error::Error;
+use crate::job::{Choice, Job};
 use crate::measure::evaluate::{Accuracy, Evaluator};
 use crate::measure::meter::unit_name;
 use crate::measure::{Clock, Cycles};
@@ -33,15 +34,15 @@ pub struct AdviseArgs {
     bodies: Option<u16>,
 
     /// How much of what its promises allow the scene may use: 1 is all, 2 twice as much
-    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive)]
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive, allow_negative_numbers = true)]
     tolerance: f64,
 
     /// Deepest overlap in the run's second half, px [default: what the promises say]
-    #[arg(long, value_name = "PX", value_parser = positive)]
+    #[arg(long, value_name = "PX", value_parser = positive, allow_negative_numbers = true)]
     overlap: Option<f64>,
 
     /// Largest part of the time between two steps that the worst step may take at 160 MHz, %
-    #[arg(long, value_name = "PERCENT", value_parser = positive)]
+    #[arg(long, value_name = "PERCENT", value_parser = positive, allow_negative_numbers = true)]
     load: Option<f64>,
 
     /// Number formats to choose from, with commas between them
@@ -81,6 +82,9 @@ const PASSES: [u8; 5] = [1, 2, 3, 4, 8];
 /// On wrong arguments, a target that cannot count or goes away, or Ctrl-C.
 pub fn run(arguments: &AdviseArgs) -> Result<bool, Error> {
     let scene = run::find(&arguments.scene)?;
+    // What the scene doesn't take is refused before anything is built or opened.
+    let choice = Choice { bodies: arguments.bodies, steps: arguments.steps, ..Choice::default() };
+    Job::of(scene, choice, &Setting::default())?;
     let reset = arguments.reset.choice();
     let means = Means { elf: None, speed: Speed::Quiet, patience: arguments.timeout, reset };
     let mut evaluator = Evaluator::open(&arguments.target, &means)?;

@@ -38,21 +38,26 @@ pub struct Evaluation {
     pub accuracy: Accuracy,
 }
 
+/// Says how far from right a scene is computed, on the mock.
+pub struct Judge {
+    mock: Client,
+}
+
 /// The two that an evaluation takes.
 pub struct Evaluator {
-    mock: Client,
+    judge: Judge,
     /// Who counts.
     pub meter: Meter,
 }
 
-impl Evaluator {
-    /// Opens the mock and a target.
+impl Judge {
+    /// Opens the mock.
     ///
     /// # Errors
-    /// As [`Meter::open`].
-    pub fn open(target: &Target, means: &Means) -> Result<Self, Error> {
+    /// If it doesn't start.
+    pub fn open(means: &Means) -> Result<Self, Error> {
         let (mock, _) = Client::connect(Target::Mock.open(means)?, Target::Mock.label(), means.patience)?;
-        Ok(Self { mock, meter: Meter::open(target, means)? })
+        Ok(Self { mock })
     }
 
     /// How far from right a job is.
@@ -66,6 +71,16 @@ impl Evaluator {
         let findings = observer.findings().split_off(1);
         Ok(Accuracy { findings, series: observer.series(), digest: trace.end.digest })
     }
+}
+
+impl Evaluator {
+    /// Opens the mock and a target.
+    ///
+    /// # Errors
+    /// As [`Meter::open`].
+    pub fn open(target: &Target, means: &Means) -> Result<Self, Error> {
+        Ok(Self { judge: Judge::open(means)?, meter: Meter::open(target, means)? })
+    }
 
     /// Cost and error of a job; none if the target has no room for it.
     ///
@@ -77,7 +92,7 @@ impl Evaluator {
             Err(error) if error.kind() == Kind::Refused => return Ok(None),
             Err(error) => return Err(error),
         };
-        let accuracy = self.accuracy(job)?;
+        let accuracy = self.judge.accuracy(job)?;
         if accuracy.digest != sample.digest {
             let (name, scene) = (&self.meter.identity.label, job.scene.name);
             return Err(Error::new(

@@ -1,32 +1,27 @@
-//! `rig peers`: what flat takes for a step beside what other engines take for the same scenes.
+//! `rig peers`: flat beside other engines on the same scenes: what a step takes, and how right it is.
 
+mod accuracy;
+mod cost;
 mod figures;
+mod native;
+mod oracle;
 
-use std::fmt::Write;
-use std::fs;
 use std::time::Duration;
 
 use clap::Args;
+use console::style;
 
 use crate::cli::seconds;
 use crate::error::Error;
-use crate::firmware::toolchain::Toolchain;
-use crate::firmware::workspace;
-use crate::job::{Choice, Job};
+use crate::measure::evaluate::Judge;
 use crate::measure::provenance::Provenance;
-use crate::measure::{Meter, Summary};
-use crate::report::figures::{grouped, table};
 use crate::report::marks;
-use crate::report::progress::overall;
 use crate::run;
 use crate::setting::Setting;
+use crate::target::Means;
 use crate::target::qemu::Speed;
 use crate::target::reset::Reset;
-use crate::target::{Means, Target};
-use figures::{PEERS, Peers};
-
-/// The README's marks.
-const MARK: &str = "peers";
+use oracle::Oracle;
 
 /// Arguments of `rig peers`.
 #[derive(Debug, Args)]
@@ -35,7 +30,16 @@ pub struct PeersArgs {
     #[command(flatten)]
     setting: Setting,
 
-    /// Also writes the table between the README's peers marks
+    /// Also builds two other engines and runs them here: how right all are on the same scenes and, where there is valgrind, how
+    /// many instructions a step takes
+    #[arg(long)]
+    live: bool,
+
+    /// Scenarios to run live [default: some with a known answer and some hard ones]
+    #[arg(value_name = "SCENARIO", requires = "live", conflicts_with = "publish")]
+    scenarios: Vec<String>,
+
+    /// Also writes the tables between the README's peers marks and, with --live, its live marks
     #[arg(long)]
     publish: bool,
 
@@ -44,78 +48,62 @@ pub struct PeersArgs {
     timeout: Duration,
 }
 
-/// Measures and prints; always true: the table judges nobody.
+/// Measures and prints; always true: the tables judge nobody.
 ///
 /// # Errors
-/// If QEMU isn't there, or the README has no marks.
+/// If QEMU isn't there, a peer can't be built, or a file has no marks.
 pub fn run(arguments: &PeersArgs) -> Result<bool, Error> {
     let means = Means { elf: None, speed: Speed::Quiet, patience: arguments.timeout, reset: Reset::default() };
-    let mut meter = Meter::open(&Target::Qemu, &means)?;
-    let bar = overall(PEERS.len());
-    let mut lines = Vec::new();
-    for peers in PEERS {
-        bar.set_message(format!("{} {}", peers.scene, peers.bodies));
-        let choice = Choice { bodies: Some(peers.bodies), ..Choice::default() };
-        let sample = meter.measure(&Job::of(run::find(peers.scene)?, choice, &arguments.setting)?)?;
-        lines.push((peers, sample.total()));
-        bar.inc(1);
+    let setting = &arguments.setting;
+    let scenes = scenes(arguments)?;
+    if arguments.scenarios.is_empty() {
+        let lines = cost::measure(setting, &means)?;
+        cost::print(&lines, setting);
+        if arguments.publish {
+            let made = format!("Measured {}; made by `cargo rig peers --publish`.", Provenance::now());
+            marks::publish("README.md", "peers", &format!("{}{made}", cost::markdown(&lines, setting)?))?;
+        }
     }
-    bar.finish_and_clear();
-    let mut shown = table(&HEADER);
-    for (peers, ours) in &lines {
-        shown.add_row(row(peers, ours));
-    }
-    println!("instructions a step on rv32imc, mean of steps 301 to 600; flat at {}\n{shown}", arguments.setting);
-    if arguments.publish {
-        let path = workspace::root()?.join("README.md");
-        let failed = |error: &std::io::Error| Error::usage(format!("{}: {error}", path.display()), "");
-        let text = fs::read_to_string(&path).map_err(|error| failed(&error))?;
-        let text = marks::replace(&text, MARK, &markdown(&lines, &arguments.setting)?)?;
-        fs::write(&path, text).map_err(|error| failed(&error))?;
-        println!("the README's table is written");
+    if arguments.live {
+        live(arguments, &scenes, &means)?;
     }
     Ok(true)
 }
 
-const HEADER: [&str; 6] = ["scene", "original C++", "Box2D 3.2", "flat", "flat, worst step", "original : flat"];
-
-fn row(peers: &Peers, ours: &Summary) -> [String; 6] {
-    let figure = |figure: Option<u32>| figure.map_or_else(|| "-".into(), |figure| grouped(figure.into()));
-    let ratio = peers.original.map(|original| f64::from(original) / ours.mean.max(1.0));
-    [
-        format!("{} {}", peers.scene, peers.bodies),
-        figure(peers.original),
-        figure(peers.box2d),
-        grouped(ours.mean),
-        grouped(ours.worst as f64),
-        ratio.map_or_else(String::new, |ratio| format!("{ratio:.1}")),
-    ]
-}
-
-fn markdown(lines: &[(Peers, Summary)], setting: &Setting) -> Result<String, Error> {
-    let mut text = format!("| {} |\n|---|--:|--:|--:|--:|--:|\n", HEADER.join(" | "));
-    for (peers, ours) in lines {
-        let _ = writeln!(text, "| {} |", row(peers, ours).join(" | "));
+/// Builds the peers and measures on this machine.
+fn live(arguments: &PeersArgs, scenes: &[(&'static str, u16)], means: &Means) -> Result<(), Error> {
+    let oracle = Oracle::build()?;
+    let right = accuracy::measure(&oracle, &mut Judge::open(means)?, scenes, &arguments.setting)?;
+    accuracy::print(&right, &arguments.setting);
+    let taken = if oracle::can_count() {
+        let lines = native::measure(&oracle)?;
+        native::print(&lines);
+        native::markdown(&lines)
+    } else {
+        println!("{} instructions on this machine: there is no valgrind to count them", style("SKIPPED").yellow());
+        String::new()
+    };
+    if arguments.publish {
+        let made = format!("Measured {}; made by `cargo rig peers --live --publish`.", Provenance::now());
+        let short = accuracy::digest(&right);
+        marks::publish("README.md", "live", &format!("{taken}\n{short}\n**Bold** is not what must hold. {made}"))?;
+        let long = accuracy::markdown(&right);
+        marks::publish("docs/peers.md", "live", &format!("{long}\nflat at {}. {made}", arguments.setting))?;
     }
-    let _ = write!(
-        text,
-        "\nInstructions a step on rv32imc, retired in QEMU; mean of steps 301 to 600, the worst of all 600. flat at {setting}, rustc \
-         {} at opt-level 3, {}; made by `cargo rig peers --publish`. The original: release 1.5.0, 16.16 fixed point without contact \
-         friction, gcc 12.2 -O2. Box2D: 4 substeps, rotation locked, sleeping off, soft floats.",
-        Toolchain::find()?.release(),
-        Provenance::now(),
-    );
-    Ok(text)
+    Ok(())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_scene_that_peers_were_measured_on_is_there_at_that_size() {
-        for peers in PEERS {
-            assert!(run::find(peers.scene).is_ok_and(|scene| scene.bodies.contains(&peers.bodies)), "{}", peers.scene);
+fn scenes(arguments: &PeersArgs) -> Result<Vec<(&'static str, u16)>, Error> {
+    if arguments.scenarios.is_empty() {
+        return Ok(accuracy::SCENES.to_vec());
+    }
+    let scene = |name: &String| {
+        let scene = run::find(name)?;
+        if !scene.is_plain() {
+            let what = format!("{name}: tiles, sensors, one-way bodies and scripts are flat's alone");
+            return Err(Error::usage(what, "cargo rig run --list"));
         }
-    }
+        Ok((scene.name, scene.defaults.bodies))
+    };
+    arguments.scenarios.iter().map(scene).collect()
 }

@@ -124,7 +124,14 @@ fn settings(arguments: &TradeoffArgs) -> Vec<Setting> {
 
 fn scenes(arguments: &TradeoffArgs) -> Result<Vec<(&'static Scene, Option<u16>)>, Error> {
     if !arguments.scenarios.is_empty() {
-        return arguments.scenarios.iter().map(|name| Ok((run::find(name)?, arguments.bodies))).collect();
+        let scene = |name: &String| {
+            let scene = run::find(name)?;
+            // What the scene doesn't take is refused before anything is built or opened.
+            let choice = Choice { bodies: arguments.bodies, steps: arguments.steps, ..Choice::default() };
+            Job::of(scene, choice, &Setting::default())?;
+            Ok((scene, arguments.bodies))
+        };
+        return arguments.scenarios.iter().map(scene).collect();
     }
     if arguments.bodies.is_some() {
         return Err(Error::new(Kind::Usage, "--bodies needs the scenarios that it is for", "name one or more"));

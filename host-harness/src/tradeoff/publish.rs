@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::path::Path;
 
 use super::Context;
 use super::findings::{Comparison, bars};
@@ -23,14 +22,12 @@ const MARK: &str = "tradeoff";
 /// # Errors
 /// If a file cannot be written, or the README has no such marks.
 pub fn publish(comparisons: &[Comparison], context: &Context) -> Result<(), Error> {
-    let root = workspace::root()?;
     let plots: Vec<Plot> = comparisons.iter().map(|comparison| error_against_cost(comparison, context)).collect();
-    write(&root.join(PLOT), &Plot::file(&plots))?;
-    let readme = root.join("README.md");
-    let text = fs::read_to_string(&readme).map_err(|error| failed(&readme, &error))?;
-    write(&readme, &marks::replace(&text, MARK, &table(comparisons, context))?)?;
-    println!("{PLOT} and the README's table are written");
-    Ok(())
+    let path = workspace::root()?.join(PLOT);
+    let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+    made.and_then(|()| fs::write(&path, Plot::file(&plots))).map_err(|error| marks::unwritable(&path, &error))?;
+    println!("{PLOT} is written");
+    marks::publish("README.md", MARK, &table(comparisons, context))
 }
 
 /// One line a scene and setting worth its cost, and what it takes to keep every promise.
@@ -61,13 +58,4 @@ fn table(comparisons: &[Comparison], context: &Context) -> String {
         context.provenance, context.target
     );
     text
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Error> {
-    let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-    made.and_then(|()| fs::write(path, text)).map_err(|error| failed(path, &error))
-}
-
-fn failed(path: &Path, error: &std::io::Error) -> Error {
-    Error::usage(format!("{}: {error}", path.display()), "run it from a source tree that you may write to")
 }

@@ -113,6 +113,12 @@ impl Scene {
         parameters.variant.turn(vec2(px(0), px(parameters.variant.gravity.unwrap_or(self.gravity))))
     }
 
+    /// Whether any engine with boxes and circles can run it: nothing but bodies and gravity, and no script.
+    pub fn is_plain(&self) -> bool {
+        let special = Effects::TILES.and(Effects::ONE_WAY).and(Effects::SENSORS);
+        self.script.is_none() && self.effects.without(special) == self.effects
+    }
+
     /// What must hold, in the scene's own coordinates: those in which it is neither turned nor shifted.
     pub fn promises(&self, parameters: &Parameters) -> Promises {
         (self.promises)(parameters)
