@@ -8,7 +8,7 @@ use console::style;
 use crate::cli::{LevelArg, MOST_STEPS, ScalarArg, seconds};
 use crate::error::Error;
 use crate::job::{Choice, Job};
-use crate::measure::evaluate::{Accuracy, Evaluator};
+use crate::measure::evaluate::Evaluator;
 use crate::measure::meter::unit_name;
 use crate::measure::{Clock, Cycles};
 use crate::profile::one_target;
@@ -20,7 +20,7 @@ use crate::setting::Setting;
 use crate::target::qemu::Speed;
 use crate::target::reset::ResetArgs;
 use crate::target::{Means, Target};
-use crate::tradeoff::{Candidate, Comparison, bars, compare};
+use crate::tradeoff::{Candidate, Comparison, bars, compare, figure};
 
 /// Arguments of `rig advise`.
 #[derive(Debug, Args)]
@@ -119,12 +119,11 @@ impl Wanted<'_> {
     /// The first tolerance that a candidate misses, in words; none if it meets all.
     fn missed(&self, candidate: &Candidate) -> Option<String> {
         let AdviseArgs { tolerance, overlap, load, .. } = *self.arguments;
-        let accuracy = &candidate.evaluation.accuracy;
-        if let Some(why) = broken(accuracy, tolerance) {
-            return Some(why);
+        if let Some(finding) = candidate.worst().filter(|_| candidate.error() > tolerance) {
+            return Some(format!("{}: {}", finding.check, bars(candidate.error())));
         }
-        if let (Some(limit), deepest) = (overlap, accuracy.deepest()) {
-            match deepest {
+        if let Some(limit) = overlap {
+            match candidate.evaluation.accuracy.deepest() {
                 Some(deepest) if deepest <= limit => {}
                 Some(deepest) => return Some(format!("overlap {deepest:.3} px")),
                 None => return Some("overlap unknown".into()),
@@ -132,19 +131,6 @@ impl Wanted<'_> {
         }
         let part = 100.0 * self.cycles.load(candidate.evaluation.cost.worst as f64, Clock::USUAL[0]);
         load.filter(|limit| part > *limit).map(|_| format!("{part:.1} % of 160 MHz"))
-    }
-}
-
-/// The promise that a run broke beyond a tolerance.
-fn broken(accuracy: &Accuracy, tolerance: f64) -> Option<String> {
-    match accuracy.worst() {
-        Some((finding, used)) if used > tolerance => Some(format!("{}: {}", finding.check, bars(used))),
-        // Promises that have no more or less are kept or not.
-        _ => accuracy
-            .findings
-            .iter()
-            .find(|finding| finding.used.is_none() && finding.outcome == flat_rig::check::Outcome::Failed)
-            .map(|finding| format!("{}: {}", finding.check, finding.got)),
     }
 }
 
@@ -158,7 +144,7 @@ fn print(comparison: &Comparison, wanted: &Wanted<'_>, unit: &str) {
             candidate.name(),
             grouped(cost.mean),
             grouped(cost.worst as f64),
-            bars(candidate.error()).replace(" x the bar", ""),
+            figure(candidate.error()),
             accuracy.deepest().map_or_else(String::new, |deepest| format!("{deepest:.4}")),
             format!("{load:.1} %"),
             wanted.missed(candidate).unwrap_or_default(),
@@ -183,6 +169,9 @@ fn print(comparison: &Comparison, wanted: &Wanted<'_>, unit: &str) {
             );
         }
         None => println!("{} meets every tolerance; the table says what each misses", style("no setting").red().bold()),
+    }
+    if !comparison.out_of_reach.is_empty() {
+        println!("left out, since it falls short in every setting: {}", comparison.out_of_reach.join(", "));
     }
     if wanted.cycles.estimated {
         println!("cycles: {}", wanted.cycles.basis);

@@ -108,17 +108,6 @@ impl Evaluator {
 }
 
 impl Accuracy {
-    /// The promise that used most of what it is allowed, and how much: 1 = just held.
-    pub fn worst(&self) -> Option<(&Finding, f64)> {
-        let used = self.findings.iter().filter_map(|finding| Some((finding, finding.used?)));
-        used.max_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// How much the worst promise used; 0 if none has a measure.
-    pub fn error(&self) -> f64 {
-        self.worst().map_or(0.0, |(_, used)| used)
-    }
-
     /// Promises that failed.
     pub fn failed(&self) -> usize {
         self.findings.iter().filter(|finding| finding.outcome == Outcome::Failed).count()

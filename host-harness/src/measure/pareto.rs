@@ -1,9 +1,13 @@
 //! What is worth its cost: settings that no other beats in both cost and error.
 
-/// For each (cost, error), whether none is as good in both and better in one.
+/// For each (cost, error), whether none is as good in both and better in one; of equals only the first is.
 pub fn front(points: &[(f64, f64)]) -> Vec<bool> {
-    let beats = |a: &(f64, f64), b: &(f64, f64)| a.0 <= b.0 && a.1 <= b.1 && (a.0 < b.0 || a.1 < b.1);
-    points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
+    let as_good = |a: &(f64, f64), b: &(f64, f64)| a.0 <= b.0 && a.1 <= b.1;
+    let beaten = |index: usize, point: &(f64, f64)| {
+        let by = |(other, rival): (usize, &(f64, f64))| as_good(rival, point) && (rival != point || other < index);
+        points.iter().enumerate().any(by)
+    };
+    points.iter().enumerate().map(|(index, point)| !beaten(index, point)).collect()
 }
 
 #[cfg(test)]
@@ -17,8 +21,8 @@ mod tests {
     }
 
     #[test]
-    fn equals_share_the_front_and_an_infinite_error_can_still_be_the_cheapest() {
-        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.0)]), [true, true]);
+    fn of_equals_the_first_is_and_an_infinite_error_can_still_be_the_cheapest() {
+        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.0)]), [true, false]);
         assert_eq!(front(&[(1.0, f64::INFINITY), (2.0, 0.5)]), [true, true]);
     }
 }

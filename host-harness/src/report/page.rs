@@ -14,9 +14,12 @@ body{color:var(--ink);background:var(--paper)}h1{font-size:1.6rem;margin:0 0 .3r
 h2{font-size:1.2rem;margin:2.2rem 0 .3rem}p{max-width:46rem;margin:.4rem 0 .8rem}p.soft{color:var(--soft)}\
 table{border-collapse:collapse;margin:.6rem 0 1.2rem;font-variant-numeric:tabular-nums}\
 th,td{padding:.22rem .8rem;border-bottom:1px solid var(--rule);text-align:right;white-space:nowrap}\
-th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid var(--ink);vertical-align:bottom}\
+th:first-child,td:first-child,.text{text-align:left}td.text{white-space:normal;min-width:16rem}thead th{border-bottom:2px solid var(--ink);vertical-align:bottom}\
 tr.best td{font-weight:600}.wide{overflow-x:auto}svg{max-width:100%;height:auto;display:block;margin:.6rem 0}\
-strong.answer{font-size:1.1rem}";
+strong.answer{font-size:1.1rem}summary{cursor:pointer;color:var(--soft)}";
+
+/// A column with a cell of more letters than this holds words, not figures: they run from the left and may break.
+const WORDS: usize = 24;
 
 /// A page under construction.
 #[derive(Debug)]
@@ -53,18 +56,35 @@ impl Page {
     /// Adds a table; the first column holds names. Rows are marked where `best` says so.
     pub fn table(&mut self, header: &[String], rows: &[Vec<String>], best: impl Fn(usize) -> bool) {
         self.body.push_str("<div class=\"wide\"><table><thead>");
-        self.row("th", header, "");
+        let widest = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(String::len).max();
+        let words: Vec<bool> =
+            (0..header.len()).map(|column| widest(column).is_some_and(|most| most > WORDS)).collect();
+        self.row("th", header, &words, "");
         self.body.push_str("</thead><tbody>\n");
         for (index, row) in rows.iter().enumerate() {
-            self.row("td", row, if best(index) { " class=\"best\"" } else { "" });
+            self.row("td", row, &words, if best(index) { " class=\"best\"" } else { "" });
         }
         self.body.push_str("</tbody></table></div>\n");
     }
 
-    fn row(&mut self, element: &str, cells: &[String], class: &str) {
+    /// Adds a table that a reader unfolds.
+    pub fn folded_table(
+        &mut self,
+        summary: &str,
+        header: &[String],
+        rows: &[Vec<String>],
+        best: impl Fn(usize) -> bool,
+    ) {
+        let _ = writeln!(self.body, "<details><summary>{}</summary>", escape(summary));
+        self.table(header, rows, best);
+        self.body.push_str("</details>\n");
+    }
+
+    fn row(&mut self, element: &str, cells: &[String], words: &[bool], class: &str) {
         let _ = write!(self.body, "<tr{class}>");
-        for cell in cells {
-            let _ = write!(self.body, "<{element}>{}</{element}>", escape(cell));
+        for (cell, words) in cells.iter().zip(words) {
+            let text = if *words { " class=\"text\"" } else { "" };
+            let _ = write!(self.body, "<{element}{text}>{}</{element}>", escape(cell));
         }
         self.body.push_str("</tr>\n");
     }

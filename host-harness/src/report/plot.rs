@@ -6,25 +6,38 @@ use std::fmt::Write;
 
 use super::scale::{Axis, Scale};
 
-/// Width of a whole plot, legend included.
-pub const WIDTH: f64 = 760.0;
-/// Height of a whole plot.
-pub const HEIGHT: f64 = 340.0;
-/// Room for title, axis labels and the legend around the frame.
-const MARGIN: Margin = Margin { left: 76.0, right: 190.0, top: 36.0, bottom: 52.0 };
-
-struct Margin {
+/// The room that a plot takes, and what it leaves around its axes.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    width: f64,
+    height: f64,
     left: f64,
     right: f64,
     top: f64,
     bottom: f64,
 }
 
+impl Frame {
+    /// One plot across a page, its legend to the right.
+    const PAGE: Self = Self { width: 760.0, height: 340.0, left: 76.0, right: 190.0, top: 36.0, bottom: 52.0 };
+    /// One of several side by side, which share a legend.
+    const TILE: Self = Self { width: 410.0, height: 250.0, left: 64.0, right: 12.0, top: 36.0, bottom: 52.0 };
+
+    /// Where the axes end: left, right, top, bottom.
+    fn axes(&self) -> [f64; 4] {
+        [self.left, self.width - self.right, self.top, self.height - self.bottom]
+    }
+}
+
+/// Height of a line of the legend.
+const KEY: f64 = 18.0;
+
 /// Colours and strokes, light and dark, for a page's style sheet or inside a lone SVG.
 pub const STYLE: &str = "\
 .plot text{font:12px system-ui,sans-serif}.plot .title{font-weight:600;font-size:14px}\
 .plot .limit{stroke-dasharray:6 4}.plot path.rule,.plot .limit,.plot .line,.plot .halo{fill:none}\
 .plot .line{stroke-width:1.8;stroke-linejoin:round}.plot .halo{stroke-width:1.6}\
+.plot .wide{stroke-width:6;opacity:.45}.plot .middle{stroke-width:3.4;opacity:.7}.plot .narrow{stroke-width:1.4}\
 .l0{stroke:#1d5fd1}.f0{fill:#1d5fd1}.l1{stroke:#c04a00}.f1{fill:#c04a00}.l2{stroke:#167a3e}.f2{fill:#167a3e}\
 .l3{stroke:#8a2bbd}.f3{fill:#8a2bbd}.l4{stroke:#b3123f}.f4{fill:#b3123f}.l5{stroke:#0b7285}.f5{fill:#0b7285}\
 .l6{stroke:#7a6200}.f6{fill:#7a6200}.l7{stroke:#55606e}.f7{fill:#55606e}.plot text{fill:#1c1e21}\
@@ -47,8 +60,19 @@ pub struct Series {
     pub joined: bool,
     /// Each with a mark.
     pub marked: bool,
+    /// Colour and shape of the marks; none = those of its place among the others.
+    pub look: Option<Look>,
     /// x, y and what a pointer over it shows.
     pub points: Vec<Mark>,
+}
+
+/// What tells a series from others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Look {
+    /// Of eight.
+    pub colour: usize,
+    /// Of four: disc, square, triangle, diamond.
+    pub shape: usize,
 }
 
 /// One point.
@@ -97,41 +121,55 @@ impl Series {
             let (offset, y) = chunk.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
             Some(Mark { x: (index * bunch + offset + 1) as f64, y, note: String::new(), ringed: false })
         });
-        Self { name: name.into(), joined: true, marked: false, points: points.collect() }
+        Self { name: name.into(), joined: true, marked: false, look: None, points: points.collect() }
     }
 }
 
 impl Plot {
-    /// A lone SVG file.
-    pub fn file(plots: &[Self]) -> String {
-        let height = HEIGHT * plots.len() as f64;
+    /// A lone SVG file: plots of the same series side by side, so many in a row, under one legend.
+    pub fn sheet(plots: &[Self], columns: usize) -> String {
+        let Frame { width, height, left, .. } = Frame::TILE;
+        let keys = plots.first().map_or(&[][..], |plot| &plot.series);
+        let across = 3;
+        let head = KEY * (1 + keys.len().div_ceil(across)) as f64;
+        let size = (width * columns as f64, head + height * plots.len().div_ceil(columns) as f64);
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" \
-             height=\"{height}\"><style>{STYLE}</style>\
-             <rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\
+             <style>{STYLE}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n<g class=\"plot\">",
+            size.0, size.1,
         );
+        for (index, series) in keys.iter().enumerate() {
+            let x = left + (size.0 - left) / across as f64 * (index % across) as f64;
+            series.draw_key(&mut svg, Look::nth(index), x, KEY * (1 + index / across) as f64);
+        }
+        svg += "</g>\n";
         for (index, plot) in plots.iter().enumerate() {
-            let _ = writeln!(svg, "<g transform=\"translate(0 {})\">{}</g>", HEIGHT * index as f64, plot.svg());
+            let (x, y) = (width * (index % columns) as f64, head + height * (index / columns) as f64);
+            let _ = writeln!(svg, "<g transform=\"translate({x} {y})\">{}</g>", plot.draw(&Frame::TILE));
         }
         svg + "</svg>\n"
     }
 
     /// An SVG element for a page that has [`STYLE`].
     pub fn svg(&self) -> String {
+        self.draw(&Frame::PAGE)
+    }
+
+    fn draw(&self, frame: &Frame) -> String {
+        let [left, right, top, bottom] = frame.axes();
         let points = || self.series.iter().flat_map(|series| &series.points);
         let limits = self.limits.iter().map(|limit| limit.value);
-        let x = Scale::new(&self.x, points().map(|mark| mark.x), MARGIN.left, WIDTH - MARGIN.right);
-        let y = Scale::new(&self.y, points().map(|mark| mark.y).chain(limits), HEIGHT - MARGIN.bottom, MARGIN.top);
+        let x = Scale::new(&self.x, points().map(|mark| mark.x), left, right);
+        let y = Scale::new(&self.y, points().map(|mark| mark.y).chain(limits), bottom, top);
+        let Frame { width, height, .. } = frame;
+        let title = escape(&self.title);
         let mut svg = format!(
-            "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" role=\"img\" \
-             aria-label=\"{}\">\n<text class=\"title\" x=\"{:.0}\" y=\"20\">{}</text>\n",
-            escape(&self.title),
-            MARGIN.left,
-            escape(&self.title),
+            "<svg class=\"plot\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
+             aria-label=\"{title}\">\n<text class=\"title\" x=\"{left:.0}\" y=\"20\">{title}</text>\n",
         );
-        self.draw_axes(&mut svg, &x, &y);
+        self.draw_axes(&mut svg, frame, &x, &y);
         for limit in &self.limits {
-            let (left, right, at) = (MARGIN.left, WIDTH - MARGIN.right, y.place(limit.value));
+            let at = y.place(limit.value);
             let _ = writeln!(
                 svg,
                 "<path class=\"limit\" d=\"M{left:.1} {at:.1}H{right:.1}\"/>\
@@ -143,13 +181,15 @@ impl Plot {
         }
         for (index, series) in self.series.iter().enumerate() {
             series.draw(&mut svg, index, &x, &y);
-            series.draw_key(&mut svg, index);
+            if frame.right > KEY {
+                series.draw_key(&mut svg, Look::nth(index), right + 16.0, top + 10.0 + KEY * index as f64);
+            }
         }
         svg + "</svg>\n"
     }
 
-    fn draw_axes(&self, svg: &mut String, x: &Scale, y: &Scale) {
-        let (left, right, top, bottom) = (MARGIN.left, WIDTH - MARGIN.right, MARGIN.top, HEIGHT - MARGIN.bottom);
+    fn draw_axes(&self, svg: &mut String, frame: &Frame, x: &Scale, y: &Scale) {
+        let [left, right, top, bottom] = frame.axes();
         for (at, label) in x.ticks() {
             let _ = writeln!(
                 svg,
@@ -179,49 +219,65 @@ impl Plot {
     }
 }
 
+impl Look {
+    /// Of the series in that place: the first eight differ in colour, neighbours also in shape.
+    pub fn nth(index: usize) -> Self {
+        Self { colour: index % COLOURS, shape: index % 4 }
+    }
+}
+
 impl Series {
     fn draw(&self, svg: &mut String, index: usize, x: &Scale, y: &Scale) {
-        let colour = index % COLOURS;
+        let look = self.look.unwrap_or(Look::nth(index));
         if self.joined && self.points.len() > 1 {
             let mut path = String::new();
             for (place, mark) in self.points.iter().enumerate() {
                 let letter = if place == 0 { 'M' } else { 'L' };
                 let _ = write!(path, "{letter}{:.1} {:.1}", x.place(mark.x), y.place(mark.y));
             }
-            let _ = writeln!(svg, "<path class=\"line l{colour}\" d=\"{path}\"/>");
+            let _ = writeln!(svg, "<path class=\"line l{}{}\" d=\"{path}\"/>", look.colour, self.stroke(index));
         }
         for mark in self.points.iter().filter(|_| self.marked) {
             let (at_x, at_y) = (x.place(mark.x), y.place(mark.y));
             if mark.ringed {
                 let _ = writeln!(svg, "<circle class=\"halo\" cx=\"{at_x:.1}\" cy=\"{at_y:.1}\" r=\"8.5\"/>");
             }
-            draw_mark(svg, index, at_x, at_y, &mark.note);
+            draw_mark(svg, look, at_x, at_y, &mark.note);
         }
     }
 
-    fn draw_key(&self, svg: &mut String, index: usize) {
-        let (left, at) = (WIDTH - MARGIN.right + 16.0, MARGIN.top + 10.0 + 18.0 * index as f64);
+    /// Bare lines get narrower, so that those below the last still show where they coincide.
+    fn stroke(&self, index: usize) -> &'static str {
+        match index {
+            _ if self.marked => "",
+            0 => " wide",
+            1 => " middle",
+            _ => " narrow",
+        }
+    }
+
+    fn draw_key(&self, svg: &mut String, nth: Look, left: f64, at: f64) {
+        let look = self.look.unwrap_or(nth);
         if self.joined {
-            let _ = write!(svg, "<path class=\"line l{}\" d=\"M{left:.1} {at:.1}h18\"/>", index % COLOURS);
+            let _ = write!(svg, "<path class=\"line l{}\" d=\"M{left:.1} {at:.1}h18\"/>", look.colour);
         }
         if self.marked {
-            draw_mark(svg, index, left + 9.0, at, &self.name);
+            draw_mark(svg, look, left + 9.0, at, &self.name);
         }
         let _ = writeln!(svg, "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>", left + 26.0, at + 4.0, escape(&self.name));
     }
 }
 
 /// A mark: colour and shape go by the series, so that colour alone never tells them apart.
-fn draw_mark(svg: &mut String, series: usize, x: f64, y: f64, note: &str) {
-    let shape = match series % 4 {
-        0 => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\""),
-        1 => format!("<path d=\"M{:.1} {:.1}h8v8h-8z\"", x - 4.0, y - 4.0),
-        2 => format!("<path d=\"M{x:.1} {:.1}l5 9h-10z\"", y - 5.5),
-        _ => format!("<path d=\"M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5 -5.5z\"", y - 5.5),
+fn draw_mark(svg: &mut String, look: Look, x: f64, y: f64, note: &str) {
+    let (element, shape) = match look.shape {
+        0 => ("circle", format!("cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\"")),
+        1 => ("path", format!("d=\"M{:.1} {:.1}h8v8h-8z\"", x - 4.0, y - 4.0)),
+        2 => ("path", format!("d=\"M{x:.1} {:.1}l5 9h-10z\"", y - 5.5)),
+        _ => ("path", format!("d=\"M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5 -5.5z\"", y - 5.5)),
     };
-    let _ = writeln!(svg, "{shape} class=\"f{}\"><title>{}</title></{}>", series % COLOURS, escape(note), {
-        if series.is_multiple_of(4) { "circle" } else { "path" }
-    });
+    let (colour, note) = (look.colour, escape(note));
+    let _ = writeln!(svg, "<{element} {shape} class=\"f{colour}\"><title>{note}</title></{element}>");
 }
 
 /// Text that cannot be taken for markup.
@@ -239,6 +295,7 @@ mod tests {
             name: name.into(),
             joined: true,
             marked: true,
+            look: None,
             points: vec![mark(1.0, 0.0), mark(100.0, 3.0)],
         };
         Plot {
@@ -252,7 +309,7 @@ mod tests {
 
     #[test]
     fn markup_balances_and_text_is_escaped() {
-        let svg = Plot::file(&[plot(), plot()]);
+        let svg = Plot::sheet(&[plot(), plot(), plot()], 2);
         for element in ["svg", "g", "text", "circle", "title", "style"] {
             let (open, close) = (format!("<{element}"), format!("</{element}>"));
             let self_closed = svg.matches(&open).count() - svg.matches(&close).count();

@@ -17,7 +17,7 @@ pub fn text(comparisons: &[Comparison], context: &Context) -> String {
             let (setting, cost) = (&candidate.evaluation.setting, &candidate.evaluation.cost);
             let accuracy = &candidate.evaluation.accuracy;
             let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value}"));
-            let worst = accuracy.worst().map(|(finding, _)| finding);
+            let worst = candidate.worst();
             let _ = writeln!(
                 text,
                 "{},{},{},{},{},{},{},{:.1},{},{},{},{},{},{},{},{},{},{},{}",

@@ -8,7 +8,7 @@ mod publish;
 mod table;
 
 pub use arguments::TradeoffArgs;
-pub use findings::{Candidate, Comparison, bars, name};
+pub use findings::{Candidate, Comparison, bars, figure, name};
 
 use flat_scenes::Scene;
 use indicatif::ProgressBar;

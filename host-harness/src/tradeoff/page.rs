@@ -1,11 +1,13 @@
 //! Comparisons as a page: for each scene the answer, error against cost, the table, and how energy and overlap went.
 
+use flat_scenes::{Order, Promise};
+
 use super::Context;
-use super::findings::{Candidate, Comparison, bars};
+use super::findings::{Candidate, Comparison, LEAST, figure};
 use crate::cli::{LevelArg, ScalarArg};
 use crate::report::figures::grouped;
 use crate::report::page::Page;
-use crate::report::plot::{Limit, Mark, Plot, Series};
+use crate::report::plot::{Limit, Look, Mark, Plot, Series};
 use crate::report::scale::Axis;
 use crate::setting::lowercase;
 
@@ -13,18 +15,40 @@ use crate::setting::lowercase;
 pub fn text(comparisons: &[Comparison], context: &Context) -> String {
     let mut page = Page::new(
         "What accuracy costs in time",
-        &format!(
-            "For your scene: which level, and what do you lose if you go cheaper? Each setting is a level (flat, grounded, exact), \
-             a number of solver passes (x1, x2, ...) and a number format (fixed point unless it says f32 or f64). Cost is {} of \
-             the engine's step on {}. Error is how much of what is allowed the scene's worst promise used: up to 1, every promise \
-             with a measure held.",
-            context.unit, context.target,
-        ),
+        "For your scene: which setting, and what do you lose if you go cheaper?",
     );
+    page.paragraph(
+        "A setting is a level (flat, grounded, exact), a number of passes of the solver (x1, x2, ...) and a number format \
+         (fixed point, unless it says f32 or f64). Each scene promises something, such as: no two bodies overlap by more than \
+         0.02 px.",
+    );
+    page.paragraph(&format!(
+        "Cost: {} of the engine's step on {}, mean of the run's second half. Error: how much of what a scene allows its worst \
+         promise used; 0.5 is half of it, up to 1 all promises are kept, 10 is ten times too much (\
+         10 000 stands for more, and for what the run never came to). A setting is worth its cost, and \
+         ringed, if none is both cheaper and more right (the Pareto front).",
+        context.unit, context.target,
+    ));
+    let header = ["scene", "cheapest that keeps all", "its cost", "what a cheaper one breaks"].map(str::to_owned);
+    page.table(&header, &comparisons.iter().map(in_short).collect::<Vec<_>>(), |_| false);
     for comparison in comparisons {
         scene(&mut page, comparison, context);
     }
     page.finish(&context.provenance, &crate::profile::command())
+}
+
+fn in_short(comparison: &Comparison) -> Vec<String> {
+    let best = comparison.cheapest();
+    let cheaper = comparison.next_cheaper();
+    vec![
+        format!("{}, {} bodies", comparison.scene.name, comparison.bodies),
+        best.map_or_else(|| "none".into(), Candidate::name),
+        best.map_or_else(String::new, |best| grouped(best.evaluation.cost.mean)),
+        cheaper.map_or_else(
+            || "nothing is cheaper".into(),
+            |cheaper| format!("{}: {}", cheaper.name(), cheaper.worst_promise()),
+        ),
+    ]
 }
 
 fn scene(page: &mut Page, comparison: &Comparison, context: &Context) {
@@ -35,12 +59,24 @@ fn scene(page: &mut Page, comparison: &Comparison, context: &Context) {
     );
     page.answer(&comparison.answer(context.unit));
     page.plot(&error_against_cost(comparison, context));
-    let header = ["setting", "mean", "worst step", "error, x the bar", "promises held", "Pareto", "worst promise"];
-    let rows: Vec<Vec<String>> = comparison.candidates.iter().map(row).collect();
-    page.table(&header.map(str::to_owned), &rows, |index| comparison.candidates[index].on_front);
-    if let Some(plot) = over_time(comparison, "Deepest overlap over time", "deepest overlap, px", |candidate| {
-        candidate.evaluation.accuracy.series.overlap.clone()
-    }) {
+    let cost = format!("{} a step", context.unit);
+    let header = ["setting", &*cost, "worst step", "error, x the bar", "promises held", "worst promise"];
+    let header = header.map(str::to_owned);
+    let rows = |shown: &dyn Fn(&Candidate) -> bool| -> Vec<Vec<String>> {
+        comparison.candidates.iter().filter(|candidate| shown(candidate)).map(row).collect()
+    };
+    page.table(&header, &rows(&|candidate| candidate.on_front), |_| false);
+    let all = format!("all {} settings", comparison.candidates.len());
+    page.folded_table(&all, &header, &rows(&|_| true), |index| comparison.candidates[index].on_front);
+    let about_overlap = |promise: &Promise| matches!(promise, Promise::Penetration { .. });
+    let overlaps = scene
+        .parameters(Some(comparison.bodies), None, Order::Forward)
+        .is_ok_and(|parameters| scene.promises(&parameters).iter().any(about_overlap));
+    if overlaps
+        && let Some(plot) = over_time(comparison, "Deepest overlap over time", "deepest overlap, px", |candidate| {
+            candidate.evaluation.accuracy.series.overlap.clone()
+        })
+    {
         page.plot(&plot);
     }
     if let Some(plot) = energy(comparison) {
@@ -54,14 +90,14 @@ fn row(candidate: &Candidate) -> Vec<String> {
         candidate.name(),
         grouped(candidate.evaluation.cost.mean),
         grouped(candidate.evaluation.cost.worst as f64),
-        bars(candidate.error()).replace(" x the bar", ""),
+        figure(candidate.error()),
         format!("{} of {}", accuracy.held(), accuracy.findings.len()),
-        if candidate.on_front { "yes".into() } else { String::new() },
         candidate.worst_promise(),
     ]
 }
 
-/// Cost to the right, error upwards, a line for each level and number format, a ring around each point worth its cost.
+/// Cost to the right, error upwards; colours are levels, shapes are number formats, lines join numbers of passes; a ring marks
+/// what is worth its cost.
 pub fn error_against_cost(comparison: &Comparison, context: &Context) -> Plot {
     let mut series: Vec<(LevelArg, ScalarArg, Series)> = Vec::new();
     for candidate in &comparison.candidates {
@@ -69,33 +105,31 @@ pub fn error_against_cost(comparison: &Comparison, context: &Context) -> Plot {
         let key = (setting.level, setting.scalar);
         let mark = Mark {
             x: candidate.evaluation.cost.mean,
-            y: candidate.error().max(LEAST),
+            y: candidate.error().clamp(LEAST, NEVER),
             note: format!("{}: {}", candidate.name(), candidate.loss()),
             ringed: candidate.on_front,
         };
         if let Some((.., found)) = series.iter_mut().find(|(level, scalar, _)| (*level, *scalar) == key) {
             found.points.push(mark);
         } else {
-            let name = format!("{} {}", lowercase(&key.0), lowercase(&key.1));
-            series.push((key.0, key.1, Series { name, joined: true, marked: true, points: vec![mark] }));
+            let name = format!("{}, {}", lowercase(&key.0), lowercase(&key.1));
+            let look = Some(Look { colour: key.0 as usize, shape: key.1 as usize });
+            series.push((key.0, key.1, Series { name, joined: true, marked: true, look, points: vec![mark] }));
         }
     }
     // The same order, and so the same colour, in every plot.
     series.sort_by_key(|(level, scalar, _)| (*scalar as u8, *level as u8));
     Plot {
-        title: format!(
-            "{}, {} bodies: error against cost (ringed: worth it)",
-            comparison.scene.name, comparison.bodies
-        ),
+        title: format!("{}, {} bodies", comparison.scene.name, comparison.bodies),
         x: Axis::logarithmic(format!("{} a step, mean", context.unit)),
-        y: Axis::logarithmic("worst promise, x its bar"),
+        y: Axis::logarithmic("error, x the bar"),
         series: series.into_iter().map(|(.., series)| series).collect(),
-        limits: vec![Limit { name: "just held".into(), value: 1.0 }],
+        limits: vec![Limit { name: "just kept".into(), value: 1.0 }],
     }
 }
 
-/// Errors below are drawn here: a logarithm has no zero.
-const LEAST: f64 = 1e-4;
+/// Where a promise is drawn that the run never came to.
+const NEVER: f64 = 10_000.0;
 
 /// A value over the run for each level in fixed point, at the passes nearest to two.
 fn over_time(
@@ -130,7 +164,7 @@ fn over_time(
 fn energy(comparison: &Comparison) -> Option<Plot> {
     let all = comparison.candidates.iter().flat_map(|candidate| &candidate.evaluation.accuracy.series.energy);
     let lowest = all.copied().reduce(f64::min)?;
-    over_time(comparison, "Mechanical energy over time", "mass x px2/s2", |candidate| {
+    over_time(comparison, "Kinetic and potential energy over time", "mass x px2/s2, above the lowest", |candidate| {
         candidate.evaluation.accuracy.series.energy.iter().map(|energy| energy - lowest).collect()
     })
 }

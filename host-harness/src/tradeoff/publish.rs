@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 
 use super::Context;
-use super::findings::{Comparison, bars};
+use super::findings::{Comparison, figure};
 use super::page::error_against_cost;
 use crate::error::Error;
 use crate::firmware::workspace;
@@ -25,7 +25,7 @@ pub fn publish(comparisons: &[Comparison], context: &Context) -> Result<(), Erro
     let plots: Vec<Plot> = comparisons.iter().map(|comparison| error_against_cost(comparison, context)).collect();
     let path = workspace::root()?.join(PLOT);
     let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-    made.and_then(|()| fs::write(&path, Plot::file(&plots))).map_err(|error| marks::unwritable(&path, &error))?;
+    made.and_then(|()| fs::write(&path, Plot::sheet(&plots, 2))).map_err(|error| marks::unwritable(&path, &error))?;
     println!("{PLOT} is written");
     marks::publish("README.md", MARK, &table(comparisons, context))
 }
@@ -46,7 +46,7 @@ fn table(comparisons: &[Comparison], context: &Context) -> String {
                 comparison.bodies,
                 candidate.name(),
                 grouped(candidate.evaluation.cost.mean),
-                bars(candidate.error()).replace(" x the bar", ""),
+                figure(candidate.error()),
                 accuracy.held(),
                 accuracy.findings.len(),
             );

@@ -3,7 +3,7 @@
 use console::style;
 
 use super::Context;
-use super::findings::{Candidate, Comparison, bars};
+use super::findings::{Candidate, Comparison, figure};
 use crate::report::figures::{grouped, table};
 
 /// Prints it.
@@ -29,7 +29,7 @@ fn row(candidate: &Candidate) -> [String; 7] {
         candidate.name(),
         grouped(candidate.evaluation.cost.mean),
         grouped(candidate.evaluation.cost.worst as f64),
-        bars(candidate.error()).replace(" x the bar", ""),
+        figure(candidate.error()),
         format!("{} of {}", accuracy.held(), accuracy.findings.len()),
         if candidate.on_front { "Pareto".into() } else { String::new() },
         candidate.worst_promise(),
