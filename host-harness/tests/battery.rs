@@ -123,9 +123,9 @@ const STANDING: &[&str] = &["drop", "crate_columns", "stack", "heavy_top", "anvi
 const PITS: &[&str] = &["ball_pit", "ball_pit_offset", "ball_pit_mixed"];
 const APART: &[&str] = &["coincident", "overlapping"];
 const HEAPS: &[&str] = &["heap", "zigzag"];
-const TIGHT: &[&str] = &["wedge", "two_pixels", "tiny_and_huge", "squeezed"];
+const TIGHT: &[&str] = &["wedge", "two_pixels", "tiny_and_huge", "squeezed", "vice", "clamp", "floating"];
 const MOVED: &[&str] = &["push", "lift", "crush"];
-const SHOT: &[&str] = &["shots"];
+const SHOT: &[&str] = &["shots", "tile_shots"];
 const ON_TILES: &[&str] = &["tile_level", "seams"];
 const CHURNED: &[&str] = &["churn", "soak"];
 

@@ -8,6 +8,7 @@ pub(crate) mod cradle;
 pub(crate) mod crate_columns;
 pub(crate) mod drift;
 pub(crate) mod drop;
+pub(crate) mod floating;
 pub(crate) mod heap;
 pub(crate) mod kinematic;
 pub(crate) mod overlap;
@@ -20,6 +21,8 @@ pub(crate) mod stack;
 pub(crate) mod terminal;
 pub(crate) mod tight;
 pub(crate) mod tile_level;
+pub(crate) mod tile_shots;
+pub(crate) mod vice;
 
 use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};

@@ -52,6 +52,9 @@ pub static SCENES: &[Scene] = &[
     catalogue::tight::TWO_PIXELS,
     catalogue::tight::TINY_AND_HUGE,
     catalogue::tight::SQUEEZED,
+    catalogue::vice::VICE,
+    catalogue::vice::CLAMP,
+    catalogue::floating::SCENE,
     catalogue::churn::SCENE,
     catalogue::kinematic::PUSH,
     catalogue::kinematic::LIFT,
@@ -60,6 +63,7 @@ pub static SCENES: &[Scene] = &[
     catalogue::soak::SCENE,
     catalogue::tile_level::TILE_LEVEL,
     catalogue::tile_level::SEAMS,
+    catalogue::tile_shots::SCENE,
 ];
 
 /// The scene of that name.
