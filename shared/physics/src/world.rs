@@ -189,6 +189,8 @@ impl<S: Scalar> World<'_, S> {
         profile.define(def);
         let body = Body::new(def);
         self.bodies[usize::from(slot)] = body;
+        // A step notes the velocities of what can move, and nothing must be left of whoever had the slot.
+        self.before[usize::from(slot)] = Vec2::default();
         self.count += 1;
         self.changed(body.status.is_static());
         self.disturb(slot);

@@ -144,6 +144,28 @@ fn a_shift_by_whole_px_changes_no_bit_of_any_scene() {
 }
 
 #[test]
+fn what_a_world_held_before_changes_no_bit_of_any_scene() {
+    for level in [Level::Flat, Level::Grounded, Level::Exact] {
+        for scene in SCENES {
+            let mut storage = Box::new(Storage::<Fixed, 512, 4096, 2048>::new());
+            let fresh = {
+                let mut world = built(&mut storage, scene, &scene.defaults, level);
+                advance(&mut world, scene, &scene.defaults, 60);
+                digest(&world)
+            };
+            // Fast bodies in every slot.
+            let shots = find("tile_shots").unwrap();
+            let mut world =
+                built(&mut storage, shots, &shots.parameters(Some(64), None, Order::Forward).unwrap(), level);
+            advance(&mut world, shots, &shots.defaults, 7);
+            scene.build(&scene.defaults, level, &mut world).unwrap();
+            advance(&mut world, scene, &scene.defaults, 60);
+            assert_eq!(fresh, digest(&world), "{} at {level:?}", scene.name);
+        }
+    }
+}
+
+#[test]
 fn a_seed_changes_a_pit() {
     let pit = find("ball_pit").unwrap();
     let end = |seed| state(pit, &pit.parameters(Some(40), Some(seed), Order::Forward).unwrap(), 200);
