@@ -35,14 +35,21 @@ fn main() -> io::Result<()> {
         println!("cargo::rustc-link-arg-bins={arg}");
         println!("cargo::rustc-link-arg-examples={arg}");
     }
+    // Asked for by embedded-test's macro.
+    println!("cargo::rustc-check-cfg=cfg(rust_analyzer)");
+    if is_chosen("tests") {
+        // On Xtensa, gcc calls the linker.
+        let linker = if *arch == "xtensa" { "-Wl," } else { "" };
+        println!("cargo::rustc-link-arg-bins={linker}-Tembedded-test.x");
+    }
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=../memory.x");
     Ok(())
 }
 
-/// Whether the board's feature is on.
-fn is_chosen(board: &str) -> bool {
-    env::var_os(format!("CARGO_FEATURE_{}", board.to_uppercase())).is_some()
+/// Whether a feature is on.
+fn is_chosen(feature: &str) -> bool {
+    env::var_os(format!("CARGO_FEATURE_{}", feature.to_uppercase())).is_some()
 }
 
 /// Puts a linker script of this crate where the linker looks for it.

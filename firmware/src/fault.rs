@@ -31,7 +31,7 @@ const DELIMITER: [u8; 1] = [0];
 /// reported, only restarts.
 static BUFFER: ConstStaticCell<[u8; MAX_FRAME]> = ConstStaticCell::new([0; MAX_FRAME]);
 
-#[panic_handler]
+#[cfg_attr(not(feature = "tests"), panic_handler)]
 fn on_panic(info: &PanicInfo<'_>) -> ! {
     let place = info.location().map(|location| Place { file: tail(location.file()), line: location.line() });
     report(FaultKind::Panic, format_args!("{}", info.message()), place, board::backtrace())
@@ -84,7 +84,7 @@ pub(crate) fn last_words(buffer: &mut [u8; MAX_FRAME]) -> &[u8] {
 }
 
 /// Keeps a frame over the restart.
-fn keep(frame: &[u8]) {
+pub(crate) fn keep(frame: &[u8]) {
     let kept = machine::kept();
     for (index, bytes) in frame.chunks(4).enumerate() {
         let mut word = [0; 4];

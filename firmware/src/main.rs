@@ -15,6 +15,7 @@
 #![no_std]
 #![no_main]
 #![deny(clippy::undocumented_unsafe_blocks)]
+#![cfg_attr(feature = "tests", expect(dead_code, reason = "tests on the device start none of the tasks"))]
 
 mod board;
 mod fault;
@@ -25,6 +26,8 @@ mod logger;
 mod provoke;
 mod stack;
 mod tasks;
+#[cfg(feature = "tests")]
+mod tests;
 mod watchdog;
 
 #[cfg(feature = "rtt")]

@@ -24,6 +24,7 @@ use crate::target::{Target, TargetList};
 use crate::tradeoff::TradeoffArgs;
 use crate::trials::faults::FaultsArgs;
 use crate::trials::stress::StressArgs;
+use crate::trials::unit_tests::TestArgs;
 use crate::verify::VerifyArgs;
 
 /// Runs flat's scenes on the in-process mock, on QEMU and on boards, and checks what must hold.
@@ -66,6 +67,8 @@ pub enum Command {
     Stress(StressArgs),
     /// Makes a test build fail in every way it can, and checks what it says
     Faults(FaultsArgs),
+    /// Runs the firmware's unit tests on the device: here in QEMU, on a board through probe-rs
+    Test(TestArgs),
     /// Builds the firmware for a board and prints the path of the image
     Build {
         /// The board.

@@ -57,6 +57,7 @@ fn main() -> ExitCode {
         Command::Inspect(arguments) => firmware::inspect::run(&arguments),
         Command::Stress(arguments) => trials::stress::run(&arguments),
         Command::Faults(arguments) => trials::faults::run(&arguments),
+        Command::Test(arguments) => trials::unit_tests::run(&arguments),
         Command::Build { board, kind } => {
             println!("{}", firmware::image::build_as(board.into(), kind)?.display());
             Ok(true)

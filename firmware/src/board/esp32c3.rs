@@ -2,14 +2,10 @@
 
 use core::arch::asm;
 
-use esp_hal::clock::CpuClock;
-use esp_hal::timer::systimer::SystemTimer;
-use flat_session::Identity;
-use flat_wire::message::Counter;
-
 use super::Capacity;
-use super::esp::{self, link, machine};
-use crate::stack;
+use super::esp::machine;
+
+pub(crate) const NAME: &str = "esp32c3";
 
 // What 313 KiB of RAM hold beside the code that runs from it and a stack of 16 KiB, of which 5 were ever used.
 pub(crate) const OUTBOX_BYTES: usize = 12 * 1024;
@@ -17,34 +13,11 @@ pub(crate) const FIXED: Capacity = Capacity { bodies: 1024, contacts: 2048 };
 pub(crate) const F32: Capacity = Capacity { bodies: 112, contacts: 528 };
 pub(crate) const F64: Capacity = Capacity { bodies: 8, contacts: 24 };
 
-#[esp_hal::main]
-fn main() -> ! {
-    stack::paint();
-    let clock = CpuClock::max();
-    let chip = esp_hal::init(esp_hal::Config::default().with_cpu_clock(clock));
-    // The alarm is also embassy's time driver, in microseconds.
-    esp_rtos::start(SystemTimer::new(chip.SYSTIMER).alarm0, chip.FROM_CPU_INTR0);
-    machine::start_watchdog(chip.TIMG1, chip.RTC_TIMER);
-    let (receiver, transmitter) = cfg_select! {
-        feature = "usb" => link::open(chip.USB_DEVICE),
-        _ => link::open(chip.UART0, chip.GPIO20, chip.GPIO21),
-    };
-    let identity = Identity {
-        board: "esp32c3",
-        build: crate::BUILD,
-        clock_hz: clock as u32 * 1_000_000,
-        counter: Counter::Cycles,
-    };
-    let physics = esp::start_physics(chip.FROM_CPU_INTR1);
-    let parts = crate::Parts { identity, counter: StageCounter::start(), receiver, transmitter };
-    esp::run_link(|link| crate::start(parts, physics, link))
-}
-
 /// Times stages in CPU cycles, by the chip's performance counter; wraps after 26.8 s.
 pub(crate) struct StageCounter(());
 
 impl StageCounter {
-    fn start() -> Self {
+    pub(crate) fn start() -> Self {
         // SAFETY: mpcer = 1 selects cycles and mpcmr = 1 enables the counter; nothing else uses it.
         unsafe { asm!("csrwi 0x7e0, 1", "csrwi 0x7e1, 1", options(nomem, nostack)) };
         Self(())

@@ -26,13 +26,22 @@ mod riscv;
 #[cfg(feature = "_esp")]
 pub(crate) use esp::{Receiver, Transmitter, machine};
 #[cfg(feature = "esp32")]
-pub(crate) use esp32::{F32, F64, FIXED, OUTBOX_BYTES, StageCounter, backtrace, trail_of_interrupted};
+pub(crate) use esp32::{F32, F64, FIXED, NAME, OUTBOX_BYTES, StageCounter, backtrace, trail_of_interrupted};
 #[cfg(feature = "esp32c3")]
-pub(crate) use esp32c3::{F32, F64, FIXED, OUTBOX_BYTES, StageCounter};
+pub(crate) use esp32c3::{F32, F64, FIXED, NAME, OUTBOX_BYTES, StageCounter};
 #[cfg(feature = "qemu_virt")]
 pub(crate) use qemu_virt::{F32, F64, FIXED, OUTBOX_BYTES, Receiver, StageCounter, Transmitter, machine};
 #[cfg(target_arch = "riscv32")]
 pub(crate) use riscv::{backtrace, trail_of_interrupted};
+
+/// A device that has started, up to its tasks, for the tests.
+#[cfg(feature = "tests")]
+pub(crate) fn boot() -> crate::Parts {
+    cfg_select! {
+        feature = "_esp" => esp::boot().parts,
+        _ => qemu_virt::boot(),
+    }
+}
 
 /// Room for one number format.
 pub(crate) struct Capacity {

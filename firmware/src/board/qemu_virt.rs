@@ -15,7 +15,7 @@ mod uart;
 use flat_session::Identity;
 
 use super::Capacity;
-use crate::stack;
+use crate::{Parts, stack};
 pub(crate) use stage_counter::StageCounter;
 pub(crate) use uart::{Receiver, Transmitter};
 
@@ -24,23 +24,22 @@ pub(crate) const FIXED: Capacity = Capacity { bodies: 1024, contacts: 8192 };
 pub(crate) const F32: Capacity = FIXED;
 pub(crate) const F64: Capacity = FIXED;
 
-#[riscv_rt::entry]
-fn main() -> ! {
+/// Starts the machine, its counter and its link; its clock runs by itself.
+pub(super) fn boot() -> Parts {
     stack::paint();
     machine::guard_stack();
     let counter = StageCounter::calibrate();
     let (receiver, transmitter) = uart::open();
+    // The clock is whatever `-icount` says.
+    let identity = Identity { board: "qemu_virt", build: crate::BUILD, clock_hz: 0, counter: counter.counter() };
+    Parts { identity, counter, receiver, transmitter }
+}
+
+#[cfg_attr(not(feature = "tests"), riscv_rt::entry)]
+fn main() -> ! {
+    let parts = boot();
     let physics = executor::start_physics();
     // SAFETY: all handlers are in place and no critical section is open.
     unsafe { riscv::interrupt::enable() };
-    executor::run_link(|link| {
-        let identity = Identity {
-            board: "qemu_virt",
-            build: crate::BUILD,
-            // Whatever `-icount` says.
-            clock_hz: 0,
-            counter: counter.counter(),
-        };
-        crate::start(crate::Parts { identity, counter, receiver, transmitter }, physics, link);
-    })
+    executor::run_link(|link| crate::start(parts, physics, link))
 }

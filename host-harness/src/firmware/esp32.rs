@@ -55,7 +55,9 @@ pub fn check() -> Result<Outcome, Error> {
                 .into(),
         ));
     };
-    type_check(&compiler, &library)?;
+    type_check(&compiler, &library, &["--bins", "--examples"])?;
+    // Its unit tests take the place of the product's tasks.
+    type_check(&compiler, &library, &["--features", "tests"])?;
     Ok(Outcome::TypeChecked { release: compiler.release })
 }
 
@@ -95,7 +97,7 @@ fn build() -> Result<PathBuf, Error> {
     Ok(target_dir.join(TARGET).join("firmware/flat-firmware"))
 }
 
-fn type_check(compiler: &Compiler, library: &Path) -> Result<(), Error> {
+fn type_check(compiler: &Compiler, library: &Path, arguments: &[&str]) -> Result<(), Error> {
     let directory = workspace::target_dir()?.join("esp32-check");
     let crates = locate_crates()?;
     let copies = Copies { library: directory.join("library"), crates: directory.join("crates") };
@@ -108,6 +110,7 @@ fn type_check(compiler: &Compiler, library: &Path) -> Result<(), Error> {
     cargo.env("__CARGO_TESTS_ONLY_SRC_ROOT", &copies.library);
     cargo.env_remove("CARGO_ENCODED_RUSTFLAGS").env("RUSTFLAGS", "-Zno-codegen -Dwarnings");
     image::choose(Board::Esp32, &mut cargo)?;
+    cargo.args(arguments);
     subprocess::run("type-checking the esp32 firmware", &mut cargo).map(drop)
 }
 

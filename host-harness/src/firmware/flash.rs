@@ -76,7 +76,10 @@ pub fn run(arguments: &FlashArgs) -> Result<(), Error> {
         Some(elf) => elf.clone(),
         None if board == Board::Esp32 && arguments.kind == Build::PRODUCT => esp32::build_image()?,
         None if board == Board::Esp32 => {
-            return Err(Error::usage("--usb and --provoke are for the esp32c3", "leave them out"));
+            return Err(Error::usage(
+                "other images than the product are built for the esp32c3 alone",
+                "leave the options out",
+            ));
         }
         None => image::build_as(board, arguments.kind)?,
     };

@@ -46,6 +46,7 @@ impl fmt::Display for Board {
 /// What an image is built for, beside its board.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Args)]
 #[group(id = "build_kind")]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line, each by itself")]
 pub struct Build {
     /// A test build: it obeys commands that make it fail
     #[arg(long)]
@@ -54,17 +55,28 @@ pub struct Build {
     /// For the ESP32-C3's own USB port instead of UART0
     #[arg(long)]
     pub usb: bool,
+
+    /// Logs go to a debug probe's RTT instead of the link
+    #[arg(long)]
+    pub rtt: bool,
+
+    /// Not the product but its unit tests, as `rig test` runs them
+    #[arg(long)]
+    pub tests: bool,
 }
 
 impl Build {
     /// A product for UART0.
-    pub const PRODUCT: Self = Self { provoke: false, usb: false };
-    /// The same for tests.
-    pub const PROVOKE: Self = Self { provoke: true, usb: false };
+    pub const PRODUCT: Self = Self { provoke: false, usb: false, rtt: false, tests: false };
+    /// The same for trials.
+    pub const PROVOKE: Self = Self { provoke: true, ..Self::PRODUCT };
+    /// The unit tests.
+    pub const TESTS: Self = Self { tests: true, ..Self::PRODUCT };
 
     /// What it adds to the firmware, by the names of its features.
     fn features(self) -> impl Iterator<Item = &'static str> {
-        [("usb", self.usb), ("provoke", self.provoke)].into_iter().filter(|&(_, is_on)| is_on).map(|(name, _)| name)
+        let features = [("usb", self.usb), ("rtt", self.rtt), ("provoke", self.provoke), ("tests", self.tests)];
+        features.into_iter().filter(|&(_, is_on)| is_on).map(|(name, _)| name)
     }
 }
 

@@ -22,6 +22,7 @@ pub mod operation;
 pub mod provision;
 pub mod references;
 pub mod subprocess;
+pub mod suite;
 pub mod symbols;
 pub mod toolchain;
 pub mod workspace;

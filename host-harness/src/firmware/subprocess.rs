@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader, ErrorKind, PipeReader};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -55,6 +55,15 @@ fn is_cargo_status(line: &str) -> bool {
 /// # Errors
 /// If it cannot be started. [`crate::error::Kind::Interrupted`] on Ctrl-C.
 pub fn watch(title: &str, command: &mut Command) -> Result<Ended, Error> {
+    watch_for(title, command, Duration::MAX)
+}
+
+/// As [`watch`], but ends the program after `limit`, and says so in its output.
+///
+/// # Errors
+/// As [`watch`].
+pub fn watch_for(title: &str, command: &mut Command, limit: Duration) -> Result<Ended, Error> {
+    let started = Instant::now();
     let program = command.get_program().to_string_lossy().into_owned();
     let broken = |error: std::io::Error| {
         let next = if error.kind() == ErrorKind::NotFound { format!("install {program}") } else { String::new() };
@@ -79,6 +88,11 @@ pub fn watch(title: &str, command: &mut Command) -> Result<Ended, Error> {
             }
             Err(RecvTimeoutError::Timeout) => interrupt::check()?,
             Err(RecvTimeoutError::Disconnected) => break,
+        }
+        if started.elapsed() > limit {
+            spinner.finish_and_clear();
+            let output = format!("{output}{title} takes longer than {} s\n", limit.as_secs_f32());
+            return Ok(Ended { success: false, code: None, output });
         }
     }
     let status = running.0.wait().map_err(broken)?;
@@ -161,6 +175,14 @@ mod tests {
         ] {
             assert!(!is_cargo_status(line), "{line}");
         }
+    }
+
+    #[test]
+    fn a_program_that_goes_on_is_ended() {
+        let started = Instant::now();
+        let ended = watch_for("sleeping", &mut shell("sleep 60"), Duration::from_millis(50)).unwrap();
+        assert!(!ended.success && started.elapsed() < GRACE, "{ended:?}");
+        assert_eq!(ended.output, "sleeping takes longer than 0.05 s\n");
     }
 
     #[test]

@@ -3,3 +3,4 @@
 pub mod disturbance;
 pub mod faults;
 pub mod stress;
+pub mod unit_tests;

@@ -37,11 +37,15 @@ pub(super) fn lint_esp32c3() -> Result {
     lint(Board::Esp32c3)
 }
 
+/// The product and what shows its use, then what is only built for trials and tests.
 fn lint(board: Board) -> Result {
-    let mut clippy = Toolchain::find()?.clippy()?;
-    image::choose(board, &mut clippy)?;
-    clippy.args(["--", "-Dwarnings"]);
-    subprocess::run(&format!("clippy on the {board} firmware"), &mut clippy)?;
+    const CHOICES: [&[&str]; 3] = [&["--bins", "--examples"], &["--features", "provoke,rtt"], &["--features", "tests"]];
+    for choice in CHOICES {
+        let mut clippy = Toolchain::find()?.clippy()?;
+        image::choose(board, &mut clippy)?;
+        clippy.args(choice).args(["--", "-Dwarnings"]);
+        subprocess::run(&format!("clippy on the {board} firmware"), &mut clippy)?;
+    }
     Ok(Verdict::Passed("no warnings".into()))
 }
 

@@ -30,7 +30,7 @@ pub struct VerifyArgs {
 }
 
 /// The steps in their order; what finds most mistakes in least time comes first.
-const STEPS: [Step; 24] = [
+const STEPS: [Step; 26] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
@@ -81,6 +81,8 @@ const STEPS: [Step; 24] = [
         &["build-esp32c3"],
         scenarios::esp_qemu,
     ),
+    Step::new("tests-qemu", "the firmware's unit tests, on QEMU", &["provision"], trials::tests_qemu),
+    Step::new("tests-esp32c3", "the same, linked for the ESP32-C3", &["provision"], trials::tests_esp32c3),
     Step::new("link-qemu", "a bad link delays no step on QEMU", &["build-qemu_virt"], trials::link_qemu),
     Step::new(
         "link-esp32c3",
