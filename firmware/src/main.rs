@@ -16,6 +16,7 @@
 #![no_main]
 #![deny(clippy::undocumented_unsafe_blocks)]
 #![cfg_attr(feature = "tests", expect(dead_code, reason = "tests on the device start none of the tasks"))]
+#![cfg_attr(not(feature = "physics"), expect(dead_code, reason = "without physics nothing is timed"))]
 
 mod board;
 mod fault;
@@ -59,7 +60,7 @@ pub(crate) struct Parts {
 
 /// Starts the tasks: physics on its own executor, which interrupts the link's.
 pub(crate) fn start(parts: Parts, physics: SendSpawner, link: Spawner) {
-    let Parts { identity, counter, receiver, transmitter } = parts;
+    let Parts { identity, receiver, transmitter, .. } = parts;
     let cause = fault::cause();
     defmt::info!("{=str} of build {=str} starts", identity.board, identity.build);
     // The outbox is empty: there is room.
@@ -69,5 +70,8 @@ pub(crate) fn start(parts: Parts, physics: SendSpawner, link: Spawner) {
     link.spawn(tasks::receive(receiver).expect("first instance"));
     #[cfg(not(feature = "rtt"))]
     link.spawn(tasks::log().expect("first instance"));
-    physics.spawn(tasks::simulate(identity, counter).expect("first instance"));
+    physics.spawn(cfg_select! {
+        feature = "physics" => tasks::simulate(identity, parts.counter).expect("first instance"),
+        _ => tasks::attend(identity).expect("first instance"),
+    });
 }

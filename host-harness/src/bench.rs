@@ -11,6 +11,7 @@ use crate::client::Client;
 use crate::compare::{self, Side};
 use crate::drive;
 use crate::error::{Error, Kind};
+use crate::firmware::image;
 use crate::job::Job;
 use crate::observe::Observer;
 use crate::report::terminal::{self, Columns};
@@ -90,7 +91,7 @@ impl Bench {
                 (Some(client), identity)
             };
             terminal::print_target(&identity);
-            if identity.build != ours.build {
+            if image::sources(&identity.build) != ours.build {
                 terminal::warn_other_build(&identity, &ours.build);
             }
             self.identities.push(identity);

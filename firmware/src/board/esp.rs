@@ -17,7 +17,7 @@ use flat_session::Identity;
 use flat_wire::message::Counter;
 use static_cell::StaticCell;
 
-use super::{NAME, StageCounter};
+use super::this::{NAME, StageCounter};
 use crate::{Parts, stack, watchdog};
 pub(crate) use link::{Receiver, Transmitter};
 

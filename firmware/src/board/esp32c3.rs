@@ -2,16 +2,18 @@
 
 use core::arch::asm;
 
-use super::Capacity;
 use super::esp::machine;
+use super::{Capacity, Room};
 
 pub(crate) const NAME: &str = "esp32c3";
 
 // What 313 KiB of RAM hold beside the code that runs from it and a stack of 16 KiB, of which 5 were ever used.
 pub(crate) const OUTBOX_BYTES: usize = 12 * 1024;
-pub(crate) const FIXED: Capacity = Capacity { bodies: 1024, contacts: 2048 };
-pub(crate) const F32: Capacity = Capacity { bodies: 112, contacts: 528 };
-pub(crate) const F64: Capacity = Capacity { bodies: 8, contacts: 24 };
+pub(crate) const ROOM: Room = Room {
+    fixed: Capacity { bodies: 1024, contacts: 2048 },
+    f32: Capacity { bodies: 112, contacts: 528 },
+    f64: Capacity { bodies: 8, contacts: 24 },
+};
 
 /// Times stages in CPU cycles, by the chip's performance counter; wraps after 26.8 s.
 pub(crate) struct StageCounter(());

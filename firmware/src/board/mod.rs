@@ -6,7 +6,7 @@
 //! | `Transmitter`     | serial out, `embedded_io_async::Write`                        |
 //! | `StageCounter`    | cycles or instructions                                        |
 //! | `OUTBOX_BYTES`    | bytes of frames that may wait for the link                    |
-//! | `FIXED` and so on | room for bodies and contacts in each number format            |
+//! | `ROOM`            | room for bodies and contacts in each number format            |
 //! | `machine`         | the stack, the code, restart, sending without interrupts      |
 //! | `backtrace`       | the calls that led to here                                    |
 //!
@@ -23,16 +23,24 @@ mod qemu_virt;
 #[cfg(target_arch = "riscv32")]
 mod riscv;
 
+#[cfg(feature = "esp32")]
+use esp32 as this;
+#[cfg(feature = "esp32c3")]
+use esp32c3 as this;
+#[cfg(feature = "qemu_virt")]
+use qemu_virt as this;
+
 #[cfg(feature = "_esp")]
 pub(crate) use esp::{Receiver, Transmitter, machine};
 #[cfg(feature = "esp32")]
-pub(crate) use esp32::{F32, F64, FIXED, NAME, OUTBOX_BYTES, StageCounter, backtrace, trail_of_interrupted};
-#[cfg(feature = "esp32c3")]
-pub(crate) use esp32c3::{F32, F64, FIXED, NAME, OUTBOX_BYTES, StageCounter};
+pub(crate) use esp32::{backtrace, trail_of_interrupted};
 #[cfg(feature = "qemu_virt")]
-pub(crate) use qemu_virt::{F32, F64, FIXED, OUTBOX_BYTES, Receiver, StageCounter, Transmitter, machine};
+pub(crate) use qemu_virt::{Receiver, Transmitter, machine};
 #[cfg(target_arch = "riscv32")]
 pub(crate) use riscv::{backtrace, trail_of_interrupted};
+#[cfg(feature = "physics")]
+pub(crate) use this::ROOM;
+pub(crate) use this::{OUTBOX_BYTES, StageCounter};
 
 /// A device that has started, up to its tasks, for the tests.
 #[cfg(feature = "tests")]
@@ -43,7 +51,15 @@ pub(crate) fn boot() -> crate::Parts {
     }
 }
 
-/// Room for one number format.
+/// Room for worlds, by number format.
+pub(crate) struct Room {
+    pub(crate) fixed: Capacity,
+    pub(crate) f32: Capacity,
+    pub(crate) f64: Capacity,
+}
+
+/// Room for one world.
+#[derive(Clone, Copy)]
 pub(crate) struct Capacity {
     /// Most bodies.
     pub(crate) bodies: usize,

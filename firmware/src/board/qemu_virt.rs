@@ -14,15 +14,16 @@ mod uart;
 
 use flat_session::Identity;
 
-use super::Capacity;
+use super::{Capacity, Room};
 use crate::{Parts, stack};
 pub(crate) use stage_counter::StageCounter;
 pub(crate) use uart::{Receiver, Transmitter};
 
 pub(crate) const OUTBOX_BYTES: usize = 64 * 1024;
-pub(crate) const FIXED: Capacity = Capacity { bodies: 1024, contacts: 8192 };
-pub(crate) const F32: Capacity = FIXED;
-pub(crate) const F64: Capacity = FIXED;
+pub(crate) const ROOM: Room = {
+    let each = Capacity { bodies: 1024, contacts: 8192 };
+    Room { fixed: each, f32: each, f64: each }
+};
 
 /// Starts the machine, its counter and its link; its clock runs by itself.
 pub(super) fn boot() -> Parts {

@@ -5,14 +5,13 @@ use core::future::pending;
 use embassy_futures::select::{Either, select};
 use embassy_time::{Duration, Instant, Timer};
 use flat_physics::{Fixed, Storage};
-use flat_session::{Identity, Session, Worlds};
-#[cfg(feature = "provoke")]
-use flat_wire::message::Command;
+use flat_session::{Identity, Worlds};
 use static_cell::ConstStaticCell;
 
-use super::arrivals::{ARRIVALS, Arrival};
-use super::outbox::{OUTBOX, Outbox};
-use crate::board::{self, StageCounter, machine};
+use super::answer::{Session, answer};
+use super::arrivals::ARRIVALS;
+use super::outbox::OUTBOX;
+use crate::board::{ROOM, StageCounter, machine};
 use crate::watchdog;
 
 /// What the link gets between two ticks at least: this, and one part in [`LINK_SHARE`] of what the tick took. Only a
@@ -21,13 +20,13 @@ const LINK_TURN: Duration = Duration::from_micros(500);
 const LINK_SHARE: u32 = 8;
 
 /// Storage for one number format, in a static: it is far too large for a stack.
-type Room<S, const BODIES: usize, const CONTACTS: usize> = ConstStaticCell<Storage<S, BODIES, CONTACTS, TILES>>;
+type World<S, const BODIES: usize, const CONTACTS: usize> = ConstStaticCell<Storage<S, BODIES, CONTACTS, TILES>>;
 /// Most tiles of a map: 64 x 32.
 const TILES: usize = 2048;
 
-static FIXED: Room<Fixed, { board::FIXED.bodies }, { board::FIXED.contacts }> = Room::new(Storage::new());
-static F32: Room<f32, { board::F32.bodies }, { board::F32.contacts }> = Room::new(Storage::new());
-static F64: Room<f64, { board::F64.bodies }, { board::F64.contacts }> = Room::new(Storage::new());
+static FIXED: World<Fixed, { ROOM.fixed.bodies }, { ROOM.fixed.contacts }> = World::new(Storage::new());
+static F32: World<f32, { ROOM.f32.bodies }, { ROOM.f32.contacts }> = World::new(Storage::new());
+static F64: World<f64, { ROOM.f64.bodies }, { ROOM.f64.contacts }> = World::new(Storage::new());
 
 /// Runs the session. Wakes for a command, or when the microsecond timer says that a step is due; never for a byte.
 #[embassy_executor::task]
@@ -56,25 +55,6 @@ pub(crate) async fn simulate(identity: Identity, counter: StageCounter) -> ! {
     }
 }
 
-/// Carries out a command. Not inlined: unlike its caller, it stays in flash.
-#[inline(never)]
-fn answer(session: &mut Session<'_>, arrival: &Arrival, outbox: &mut &Outbox) {
-    let sequence = arrival.sequence;
-    session.note_link(arrival.link);
-    if let Some(stack) = arrival.stack {
-        session.note_stack(stack);
-    }
-    match &arrival.command {
-        #[cfg(feature = "provoke")]
-        Some(Command::Provoke(mishap)) => {
-            crate::provoke::on_physics(*mishap);
-            session.acknowledge(sequence, outbox);
-        }
-        Some(command) => session.handle(Instant::now().as_micros(), sequence, command, outbox),
-        None => session.refuse_unknown(sequence, outbox),
-    }
-}
-
 /// The board's clock and its counter of cycles or instructions.
 struct Stopwatch(StageCounter);
 
@@ -89,7 +69,7 @@ impl flat_session::Stopwatch for Stopwatch {
 }
 
 /// Waits until the session's next tick, for ever where it has none, and not less than till `earliest`.
-async fn due(session: &Session<'_>, earliest: Instant) {
+async fn due(session: &Session, earliest: Instant) {
     match session.due_us() {
         Some(due_us) => Timer::at(Instant::from_micros(due_us).max(earliest)).await,
         None => pending().await,

@@ -1,6 +1,6 @@
 //! What an image holds: code, functions, sizes, and instructions that its core would trap on.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -140,6 +140,27 @@ impl Image {
     pub fn places(&self, wanted: impl Fn(&str) -> bool) -> Result<Vec<Place>, Error> {
         let file = ElfFile32::<LittleEndian>::parse(&self.bytes[..]).map_err(|error| unusable(&self.path, &error))?;
         dwarf::places(&file, wanted).map_err(|error| unusable(&self.path, &error))
+    }
+
+    /// Bytes of code, constants and variables that belong to some crates: their symbols, and what of them was inlined
+    /// elsewhere.
+    ///
+    /// # Errors
+    /// If the image has no usable debug information.
+    pub fn bytes_of(&self, crates: &[&str]) -> Result<u64, Error> {
+        let is_theirs = |name: &str| crates.iter().any(|one| name.contains(one));
+        let symbols = self.functions.iter().chain(&self.objects).filter(|symbol| is_theirs(&symbol.name));
+        let mut bytes: BTreeSet<u32> =
+            symbols.flat_map(|symbol| symbol.address..symbol.address + symbol.size).collect();
+        // A byte of a function inlined into another counts once.
+        bytes.extend(self.places(is_theirs)?.into_iter().flat_map(|place| place.code));
+        Ok(bytes.len() as u64)
+    }
+
+    /// The first of some words that stands anywhere in the file, names and debug information included.
+    pub fn mentions<'a>(&self, words: &[&'a str]) -> Option<&'a str> {
+        let is_in = |word: &&&str| self.bytes.windows(word.len()).any(|window| window == word.as_bytes());
+        words.iter().find(is_in).copied()
     }
 
     /// The tables behind trait objects, by address.

@@ -60,6 +60,10 @@ pub struct Build {
     #[arg(long)]
     pub rtt: bool,
 
+    /// Without the engine and its scenes: a device that only talks
+    #[arg(long)]
+    pub bare: bool,
+
     /// Not the product but its unit tests, as `rig test` runs them
     #[arg(long)]
     pub tests: bool,
@@ -67,9 +71,11 @@ pub struct Build {
 
 impl Build {
     /// A product for UART0.
-    pub const PRODUCT: Self = Self { provoke: false, usb: false, rtt: false, tests: false };
+    pub const PRODUCT: Self = Self { provoke: false, usb: false, rtt: false, bare: false, tests: false };
     /// The same for trials.
     pub const PROVOKE: Self = Self { provoke: true, ..Self::PRODUCT };
+    /// A device that only talks.
+    pub const BARE: Self = Self { bare: true, ..Self::PRODUCT };
     /// The unit tests.
     pub const TESTS: Self = Self { tests: true, ..Self::PRODUCT };
 
@@ -100,6 +106,10 @@ pub fn build_as(board: Board, kind: Build) -> Result<PathBuf, Error> {
         cargo.args(["--features", feature]);
         suffix = format!("{suffix}-{feature}");
     }
+    if kind.bare {
+        cargo.arg("--no-default-features");
+        suffix += "-bare";
+    }
     // Another image of the same sources: what reads its logs mustn't take it for this one.
     cargo.env("FLAT_BUILD", workspace::build_id()? + &suffix);
     let name = format!("{board}{suffix}");
@@ -117,6 +127,11 @@ pub fn build_as(board: Board, kind: Build) -> Result<PathBuf, Error> {
             Error::target(format!("cannot copy {} to {}: {error}", built.display(), image.display()), "")
         })?;
     Ok(image)
+}
+
+/// The part of a build's name that identifies its sources.
+pub fn sources(build: &str) -> &str {
+    build.split('-').next().unwrap_or(build)
 }
 
 /// Where the image of a board that says of itself to be of this build is, if it was built here.

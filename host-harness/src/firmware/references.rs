@@ -73,7 +73,7 @@ const PERMITS: [Permit; 26] = [
     Permit { from: "embassy_executor::raw::waker::", to: "embassy_executor::raw::waker::VTABLE", why: WAKERS },
     // The physics task.
     Permit { from: PHYSICS_TASK, to: "embassy_executor::raw::waker::VTABLE", why: WAKERS },
-    Permit { from: PHYSICS_TASK, to: "flat_firmware::tasks::simulate::answer", why: COMMANDS },
+    Permit { from: PHYSICS_TASK, to: "flat_firmware::tasks::answer::answer", why: COMMANDS },
     Permit { from: PHYSICS_TASK, to: "<flat_session::", why: COMMANDS },
     Permit { from: PHYSICS_TASK, to: "<&str as core::fmt::Display>", why: COMMANDS },
     Permit { from: PHYSICS_TASK, to: UNNAMED, why: COMMANDS },

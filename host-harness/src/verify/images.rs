@@ -39,7 +39,12 @@ pub(super) fn lint_esp32c3() -> Result {
 
 /// The product and what shows its use, then what is only built for trials and tests.
 fn lint(board: Board) -> Result {
-    const CHOICES: [&[&str]; 3] = [&["--bins", "--examples"], &["--features", "provoke,rtt"], &["--features", "tests"]];
+    const CHOICES: [&[&str]; 4] = [
+        &["--bins", "--examples"],
+        &["--features", "provoke,rtt"],
+        &["--features", "tests"],
+        &["--no-default-features"],
+    ];
     for choice in CHOICES {
         let mut clippy = Toolchain::find()?.clippy()?;
         image::choose(board, &mut clippy)?;

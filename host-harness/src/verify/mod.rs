@@ -1,5 +1,6 @@
 //! `rig verify`: everything that must hold before a change goes in, in one command that also installs what it needs.
 
+mod bare;
 mod baseline;
 mod host;
 mod images;
@@ -30,7 +31,7 @@ pub struct VerifyArgs {
 }
 
 /// The steps in their order; what finds most mistakes in least time comes first.
-const STEPS: [Step; 26] = [
+const STEPS: [Step; 28] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
@@ -81,6 +82,13 @@ const STEPS: [Step; 26] = [
         &["build-esp32c3"],
         scenarios::esp_qemu,
     ),
+    Step::new(
+        "bare-qemu_virt",
+        "without physics: nothing of it, and a device that talks",
+        &["build-qemu_virt"],
+        bare::qemu_virt,
+    ),
+    Step::new("bare-esp32c3", "the same for the ESP32-C3", &["provision"], bare::esp32c3),
     Step::new("tests-qemu", "the firmware's unit tests, on QEMU", &["provision"], trials::tests_qemu),
     Step::new("tests-esp32c3", "the same, linked for the ESP32-C3", &["provision"], trials::tests_esp32c3),
     Step::new("link-qemu", "a bad link delays no step on QEMU", &["build-qemu_virt"], trials::link_qemu),

@@ -8,7 +8,7 @@ use super::step::{Result, Verdict};
 use crate::error::{CHECK_FAILED, Error};
 use crate::firmware::image::{self, Board, Build};
 use crate::firmware::subprocess::{self, Ended};
-use crate::target::esp_qemu;
+use crate::target::{Target, esp_qemu};
 
 /// A command that runs an ESP32-C3 image, `{elf}`, with the board's UART0 on its standard input and output.
 const EMULATOR: &str = "FLAT_C3_EMULATOR";
@@ -45,13 +45,13 @@ pub(super) fn esp_qemu() -> Result {
 
 fn esp32c3(scalar: &str) -> Result {
     match emulated(Build::PRODUCT)? {
-        Ok((target, _)) => rig(&["--target", "mock", "--target", &target, "--scalar", scalar]),
+        Ok((target, _)) => rig(&["--target", "mock", "--target", &target.to_string(), "--scalar", scalar]),
         Err(missing) => Ok(Verdict::Skipped(missing)),
     }
 }
 
 /// The target that runs an ESP32-C3 image under emulation, and the image; else why there is none.
-pub(super) fn emulated(kind: Build) -> core::result::Result<core::result::Result<(String, PathBuf), String>, Error> {
+pub(super) fn emulated(kind: Build) -> core::result::Result<core::result::Result<(Target, PathBuf), String>, Error> {
     let Ok(command) = env::var(EMULATOR) else {
         return Ok(Err(format!(
             "no emulator for the ESP32-C3: set {EMULATOR} to a command with {{elf}} for the image and the UART on its \
@@ -63,7 +63,7 @@ pub(super) fn emulated(kind: Build) -> core::result::Result<core::result::Result
     }
     let elf = image::build_as(Board::Esp32c3, kind)?;
     let command = command.replace("{elf}", &shell_words::quote(&elf.to_string_lossy()));
-    Ok(Ok((format!("exec:{command}"), elf)))
+    Ok(Ok((Target::Exec(command), elf)))
 }
 
 /// A comparison that cannot fail proves nothing: here it must fail, and say where.

@@ -44,7 +44,7 @@ fn on_qemu(trial: &str) -> Result {
 
 fn on_esp32c3(trial: &str) -> Result {
     match scenarios::emulated(Build::PROVOKE)? {
-        Ok((target, elf)) => rig(trial, &target, &elf),
+        Ok((target, elf)) => rig(trial, &target.to_string(), &elf),
         Err(missing) => Ok(Verdict::Skipped(missing)),
     }
 }

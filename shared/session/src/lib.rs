@@ -13,23 +13,33 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+#[cfg(feature = "physics")]
 mod any_world;
 mod backtrace;
+pub mod bare;
 mod cut;
 mod identity;
+mod link;
 mod logs;
+#[cfg(feature = "physics")]
 mod measures;
+#[cfg(feature = "physics")]
 mod punctuality;
 mod ring;
+#[cfg(feature = "physics")]
 mod session;
 mod sink;
+#[cfg(feature = "physics")]
 mod stream;
 
+#[cfg(feature = "physics")]
 pub use any_world::Worlds;
 pub use backtrace::return_addresses;
 pub use cut::cut;
 pub use identity::{Identity, Stopwatch};
+pub use link::LinkCounters;
 pub use logs::Logs;
 pub use ring::{REPLY_RESERVE, Ring, STEP_RESERVE};
-pub use session::{LinkCounters, Session};
+#[cfg(feature = "physics")]
+pub use session::Session;
 pub use sink::{Class, Sink, encode};

@@ -4,28 +4,20 @@ use flat_physics::{Effects, Level, Pace, Scheduler, Stage};
 use flat_scenes::{Cue, Mix, Parameters, Scene, Variant};
 use flat_wire::PROTOCOL_VERSION;
 use flat_wire::message::{
-    self, Command, Detail, Event, Flip, Frame, Hello, Loaded, Order, Point, Reply, STAGES, ScalarKind, SceneRequest,
-    Stack, Status, StreamRequest,
+    self, Command, Detail, Event, Flip, Frame, Loaded, Order, Point, Reply, STAGES, ScalarKind, SceneRequest, Stack,
+    Status, StreamRequest,
 };
 
 use crate::any_world::{Worlds, reason};
 use crate::cut::cut;
 use crate::identity::{Identity, Stopwatch};
+use crate::link::LinkCounters;
 use crate::punctuality::Punctuality;
 use crate::sink::{Class, Sender, Sink};
 use crate::stream::{Dropped, Emission, Record};
 
 /// How long to wait for the line before looking again, us.
 const HELD_US: u64 = 500;
-
-/// What the receiver has counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LinkCounters {
-    /// Frames received intact.
-    pub received: u32,
-    /// Frames received damaged, and discarded.
-    pub damaged: u32,
-}
 
 /// The device program.
 #[derive(Debug)]
@@ -132,7 +124,7 @@ impl<'a> Session<'a> {
     pub fn handle(&mut self, now_us: u64, sequence: u16, command: &Command, sink: &mut dyn Sink) {
         self.welcome();
         let reply = match command {
-            Command::Hello { .. } => Ok(Reply::Hello(self.hello())),
+            Command::Hello { .. } => Ok(Reply::Hello(self.identity.hello(self.worlds.capacities()))),
             Command::Load(request) => self.load(request).map(Reply::Loaded),
             Command::Stream(request) => {
                 self.stream = *request;
@@ -278,17 +270,6 @@ impl<'a> Session<'a> {
             }
         }
         true
-    }
-
-    fn hello(&self) -> Hello {
-        Hello {
-            protocol: PROTOCOL_VERSION,
-            build: cut(format_args!("{}", self.identity.build)),
-            board: cut(format_args!("{}", self.identity.board)),
-            clock_hz: self.identity.clock_hz,
-            counter: self.identity.counter,
-            capacities: self.worlds.capacities(),
-        }
     }
 
     fn load(&mut self, request: &SceneRequest) -> Result<Loaded, message::Reason> {
