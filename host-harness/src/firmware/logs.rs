@@ -92,3 +92,98 @@ impl Logs {
         self.begun.clear();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use object::write::{Object, Symbol, SymbolSection};
+    use object::{Architecture, BinaryFormat, Endianness, SectionKind, SymbolFlags, SymbolKind, SymbolScope};
+
+    use super::*;
+
+    /// What a board sent when it started, byte by byte, 632 us after its reset.
+    const RECORDED: &[u8] = b"\x00\x01x\x02r\x09wqemu_virt\x15\x83cf069\x0383f4202beb1-bare\x89\x00";
+
+    /// The names in its image's section `.defmt`, at the addresses that the messages begin with.
+    const SYMBOLS: [(u64, &str); 4] = [
+        (
+            1,
+            r#"{"package":"flat-firmware","tag":"defmt_info","data":"{=str} of build {=str} starts","disambiguator":"7056717482068466670","crate_name":"flat_firmware"}"#,
+        ),
+        (
+            8,
+            r#"{"package":"flat-firmware","tag":"defmt_timestamp","data":"{=u64:us}","disambiguator":"17781554971448871577","crate_name":"flat_firmware"}"#,
+        ),
+        (9, "_defmt_encoding_ = rzcobs"),
+        (10, "_defmt_version_ = 4"),
+    ];
+
+    fn image(symbols: &[(u64, &str)]) -> Vec<u8> {
+        let mut image = Object::new(BinaryFormat::Elf, Architecture::Riscv32, Endianness::Little);
+        for &(value, name) in symbols {
+            let section = image.add_section(Vec::new(), b".defmt".to_vec(), SectionKind::Metadata);
+            image.add_symbol(Symbol {
+                name: name.into(),
+                value,
+                size: 1,
+                kind: SymbolKind::Data,
+                scope: SymbolScope::Dynamic,
+                weak: false,
+                section: SymbolSection::Section(section),
+                flags: SymbolFlags::None,
+            });
+        }
+        image.write().unwrap()
+    }
+
+    fn logs() -> Logs {
+        Logs::new(&image(&SYMBOLS)).unwrap()
+    }
+
+    fn message() -> Message {
+        Message {
+            time: "0.000632".into(),
+            level: "INFO",
+            text: "qemu_virt of build cf06983f4202beb1-bare starts".into(),
+            place: None,
+        }
+    }
+
+    #[test]
+    fn a_recorded_message_reads_as_it_was_written() {
+        assert_eq!(logs().read(RECORDED), Read { messages: vec![message()], unreadable: 0 });
+    }
+
+    #[test]
+    fn a_message_may_be_cut_anywhere() {
+        for cut in 1..RECORDED.len() {
+            let mut logs = logs();
+            let (begin, end) = RECORDED.split_at(cut);
+            let (first, second) = (logs.read(begin), logs.read(end));
+            assert_eq!([first.messages, second.messages].concat(), [message()], "cut at {cut}");
+            assert_eq!(first.unreadable + second.unreadable, 0, "cut at {cut}");
+        }
+    }
+
+    #[test]
+    fn a_message_that_lost_bytes_is_counted_and_the_next_one_read() {
+        let (lost, whole) = (&RECORDED[20..], RECORDED);
+        let read = logs().read(&[lost, whole].concat());
+        assert_eq!((read.messages, read.unreadable), (vec![message()], 1));
+    }
+
+    #[test]
+    fn after_a_restart_the_message_under_way_is_forgotten() {
+        let mut logs = logs();
+        logs.read(&RECORDED[..20]);
+        logs.skip();
+        assert_eq!(logs.read(RECORDED), Read { messages: vec![message()], unreadable: 0 });
+    }
+
+    #[test]
+    fn an_image_without_a_key_is_told_from_one_with_another() {
+        let why = |symbols: &[(u64, &str)]| Logs::new(&image(symbols)).err().unwrap();
+        assert!(why(&[]).contains("logs nothing"), "{}", why(&[]));
+        let raw = [(9, "_defmt_encoding_ = raw"), (10, "_defmt_version_ = 4")];
+        assert!(why(&raw).contains("rzcobs"), "{}", why(&raw));
+    }
+}
