@@ -3,7 +3,7 @@
 use super::step::{Result, Verdict};
 use crate::firmware::elf::Image;
 use crate::firmware::esp32::{self, Outcome};
-use crate::firmware::image::{self, Board};
+use crate::firmware::image::{self, Board, Build};
 use crate::firmware::inspect::Inspection;
 use crate::firmware::provision;
 use crate::firmware::subprocess;
@@ -71,6 +71,16 @@ pub(super) fn elf_esp32c3() -> Result {
         [] => Verdict::Passed(format!("{instructions}; {}", inspection.summary())),
         problems => Verdict::Failed(shown("what must not be in RAM or want from flash", problems)),
     })
+}
+
+/// Images that no other step builds: the other link, the other way for logs at another rate, and what shows the engine's use.
+pub(super) fn variants_esp32c3() -> Result {
+    image::build_as(Board::Esp32c3, Build { usb: true, ..Build::PRODUCT })?;
+    let mut cargo = Toolchain::find()?.cargo("build")?;
+    image::choose(Board::Esp32c3, &mut cargo)?;
+    cargo.args(["--features", "rtt", "--bins", "--examples"]).env("FLAT_BAUD", "115200");
+    subprocess::run("building the examples, and the firmware with RTT for 115200 baud", &mut cargo)?;
+    Ok(Verdict::Passed("usb; rtt at 115200 baud; the examples".into()))
 }
 
 /// Looks for instructions that an rv32imc core traps on, with our decoder and with binutils'.

@@ -31,7 +31,7 @@ pub struct VerifyArgs {
 }
 
 /// The steps in their order; what finds most mistakes in least time comes first.
-const STEPS: [Step; 28] = [
+const STEPS: [Step; 29] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
@@ -58,6 +58,12 @@ const STEPS: [Step; 28] = [
         "no more instructions and no more bytes than the committed ones",
         &["build-qemu_virt", "build-esp32c3"],
         baseline::compare,
+    ),
+    Step::new(
+        "variants-esp32c3",
+        "the ESP32-C3's other images, and the examples",
+        &["provision"],
+        images::variants_esp32c3,
     ),
     Step::new("esp32", "the ESP32's firmware: a build, or else a type-check", &[], images::esp32),
     Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
