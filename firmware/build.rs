@@ -12,6 +12,9 @@ const BOARDS: [Board; 3] = [
     ("esp32", "xtensa", "xtensa-esp32-none-elf", &["-nostartfiles", "-Wl,-Tlinkall.x", "-Wl,-Tdefmt.x"]),
 ];
 
+/// Features that one board alone has.
+const ONLY: [(&str, &str); 2] = [("usb", "esp32c3"), ("second-core", "esp32")];
+
 fn main() -> io::Result<()> {
     let chosen = BOARDS.iter().filter(|(name, ..)| is_chosen(name)).collect::<Vec<_>>();
     let [(name, arch, target, link_args)] = chosen[..] else {
@@ -22,6 +25,11 @@ fn main() -> io::Result<()> {
     if env::var("CARGO_CFG_TARGET_ARCH").as_deref() != Ok(arch) {
         println!("cargo::error=board {name} is built with --target {target}");
         return Ok(());
+    }
+    for (feature, board) in ONLY {
+        if is_chosen(feature) && board != *name {
+            println!("cargo::error=feature {feature} is for board {board}; chosen: {name}");
+        }
     }
 
     let out = env::var("OUT_DIR").expect("cargo sets OUT_DIR");
@@ -49,7 +57,7 @@ fn main() -> io::Result<()> {
 
 /// Whether a feature is on.
 fn is_chosen(feature: &str) -> bool {
-    env::var_os(format!("CARGO_FEATURE_{}", feature.to_uppercase())).is_some()
+    env::var_os(format!("CARGO_FEATURE_{}", feature.to_uppercase().replace('-', "_"))).is_some()
 }
 
 /// Puts a linker script of this crate where the linker looks for it.

@@ -7,12 +7,15 @@ pub(crate) mod link;
 #[path = "esp/usb.rs"]
 pub(crate) mod link;
 pub(crate) mod machine;
+#[cfg_attr(not(feature = "second-core"), path = "esp/one_core.rs")]
+#[cfg_attr(feature = "second-core", path = "esp/second_core.rs")]
+mod physics;
 
-use embassy_executor::{SendSpawner, Spawner};
+use embassy_executor::Spawner;
 use esp_hal::clock::CpuClock;
 use esp_hal::interrupt::Priority;
-use esp_hal::peripherals::{FROM_CPU_INTR1, RTC_TIMER, TIMG1};
-use esp_rtos::embassy::{Callbacks, Executor, InterruptExecutor};
+use esp_hal::peripherals::{RTC_TIMER, TIMG1};
+use esp_rtos::embassy::{Callbacks, Executor};
 use flat_session::Identity;
 use flat_wire::message::Counter;
 use static_cell::StaticCell;
@@ -30,7 +33,7 @@ const PHYSICS: Priority = Priority::Priority2;
 /// A chip that has started, up to its tasks.
 pub(super) struct Booted {
     pub(super) parts: Parts,
-    physics: FROM_CPU_INTR1<'static>,
+    physics: physics::Interrupts,
     watchdog: (TIMG1<'static>, RTC_TIMER<'static>),
 }
 
@@ -53,21 +56,23 @@ pub(super) fn boot() -> Booted {
     let clock_hz = clock as u32 * 1_000_000;
     let identity = Identity { board: NAME, build: crate::BUILD, clock_hz, counter: Counter::Cycles };
     let parts = Parts { identity, counter: StageCounter::start(), receiver, transmitter };
-    Booted { parts, physics: chip.FROM_CPU_INTR1, watchdog: (chip.TIMG1, chip.RTC_TIMER) }
+    let physics = cfg_select! {
+        feature = "second-core" => physics::Interrupts {
+            core: chip.CPU_CTRL,
+            scheduler: chip.FROM_CPU_INTR1,
+            physics: chip.FROM_CPU_INTR2,
+        },
+        _ => chip.FROM_CPU_INTR1,
+    };
+    Booted { parts, physics, watchdog: (chip.TIMG1, chip.RTC_TIMER) }
 }
 
 #[cfg_attr(not(feature = "tests"), esp_hal::main)]
 fn main() -> ! {
     let Booted { parts, physics, watchdog: (timer, rtc) } = boot();
     machine::start_watchdog(timer, rtc);
-    let physics = start_physics(physics);
+    let physics = physics::start(physics);
     run_link(|link| crate::start(parts, physics, link))
-}
-
-/// Starts the executor for physics: it interrupts the one that serves the link.
-fn start_physics(interrupt: FROM_CPU_INTR1<'static>) -> SendSpawner {
-    static EXECUTOR: StaticCell<InterruptExecutor<1>> = StaticCell::new();
-    EXECUTOR.init(InterruptExecutor::new(interrupt)).start(PHYSICS)
 }
 
 /// Runs the link's executor for ever.

@@ -57,7 +57,9 @@ pub fn check() -> Result<Outcome, Error> {
     };
     type_check(&compiler, &library, &["--bins", "--examples"])?;
     // Its unit tests take the place of the product's tasks.
-    type_check(&compiler, &library, &["--features", "tests"])?;
+    for features in ["tests", "second-core"] {
+        type_check(&compiler, &library, &["--features", features])?;
+    }
     Ok(Outcome::TypeChecked { release: compiler.release })
 }
 
