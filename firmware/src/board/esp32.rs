@@ -13,7 +13,6 @@ pub(crate) const OUTBOX_BYTES: usize = 8 * 1024;
 pub(crate) const ROOM: Room = Room {
     fixed: Capacity { bodies: 512, contacts: 1536 },
     f32: Capacity { bodies: 128, contacts: 768 },
-    f64: Capacity { bodies: 8, contacts: 24 },
 };
 
 /// Times stages in CPU cycles; wraps after 17.9 s.

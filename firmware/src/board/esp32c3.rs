@@ -12,7 +12,6 @@ pub(crate) const OUTBOX_BYTES: usize = 12 * 1024;
 pub(crate) const ROOM: Room = Room {
     fixed: Capacity { bodies: 1024, contacts: 2048 },
     f32: Capacity { bodies: 112, contacts: 528 },
-    f64: Capacity { bodies: 8, contacts: 24 },
 };
 
 /// Times stages in CPU cycles, by the chip's performance counter; wraps after 26.8 s.

@@ -55,6 +55,8 @@ pub(crate) fn boot() -> crate::Parts {
 pub(crate) struct Room {
     pub(crate) fixed: Capacity,
     pub(crate) f32: Capacity,
+    /// To compare with: chips do without.
+    #[cfg(feature = "qemu_virt")]
     pub(crate) f64: Capacity,
 }
 

@@ -26,13 +26,19 @@ const TILES: usize = 2048;
 
 static FIXED: World<Fixed, { ROOM.fixed.bodies }, { ROOM.fixed.contacts }> = World::new(Storage::new());
 static F32: World<f32, { ROOM.f32.bodies }, { ROOM.f32.contacts }> = World::new(Storage::new());
+#[cfg(feature = "qemu_virt")]
 static F64: World<f64, { ROOM.f64.bodies }, { ROOM.f64.contacts }> = World::new(Storage::new());
 
 /// Runs the session. Wakes for a command, or when the microsecond timer says that a step is due; never for a byte.
 #[embassy_executor::task]
 pub(crate) async fn simulate(identity: Identity, counter: StageCounter) -> ! {
     // `take` can't fail: there is one instance of this task, and it comes by here once.
-    let worlds = Worlds { fixed: FIXED.take().world(), f32: F32.take().world(), f64: F64.take().world() };
+    let worlds = Worlds {
+        fixed: FIXED.take().world(),
+        f32: F32.take().world(),
+        #[cfg(feature = "qemu_virt")]
+        f64: F64.take().world(),
+    };
     let mut session = Session::new(identity, worlds);
     let mut stopwatch = Stopwatch(counter);
     let mut outbox = &OUTBOX;

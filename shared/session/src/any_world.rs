@@ -21,35 +21,52 @@ pub struct Worlds<'a> {
     /// IEEE 754 binary32.
     pub f32: World<'a, f32>,
     /// IEEE 754 binary64.
+    #[cfg(feature = "binary64")]
     pub f64: World<'a, f64>,
 }
 
 impl<'a> Worlds<'a> {
-    pub(crate) fn of(&self, kind: ScalarKind) -> &(dyn AnyWorld + 'a) {
+    /// The world of a number format; none if the device does without.
+    #[cfg_attr(
+        feature = "binary64",
+        allow(clippy::unnecessary_wraps, reason = "without the feature there may be none")
+    )]
+    pub(crate) fn of(&self, kind: ScalarKind) -> Option<&(dyn AnyWorld + 'a)> {
         match kind {
-            ScalarKind::Fixed => &self.fixed,
-            ScalarKind::F32 => &self.f32,
-            ScalarKind::F64 => &self.f64,
+            ScalarKind::Fixed => Some(&self.fixed),
+            ScalarKind::F32 => Some(&self.f32),
+            #[cfg(feature = "binary64")]
+            ScalarKind::F64 => Some(&self.f64),
+            #[cfg(not(feature = "binary64"))]
+            ScalarKind::F64 => None,
         }
     }
 
-    pub(crate) fn of_mut(&mut self, kind: ScalarKind) -> &mut (dyn AnyWorld + 'a) {
+    /// The same, to change it.
+    #[cfg_attr(
+        feature = "binary64",
+        allow(clippy::unnecessary_wraps, reason = "without the feature there may be none")
+    )]
+    pub(crate) fn of_mut(&mut self, kind: ScalarKind) -> Option<&mut (dyn AnyWorld + 'a)> {
         match kind {
-            ScalarKind::Fixed => &mut self.fixed,
-            ScalarKind::F32 => &mut self.f32,
-            ScalarKind::F64 => &mut self.f64,
+            ScalarKind::Fixed => Some(&mut self.fixed),
+            ScalarKind::F32 => Some(&mut self.f32),
+            #[cfg(feature = "binary64")]
+            ScalarKind::F64 => Some(&mut self.f64),
+            #[cfg(not(feature = "binary64"))]
+            ScalarKind::F64 => None,
         }
     }
 
     /// Room in each world that has any.
     pub(crate) fn capacities(&self) -> Vec<Capacity, 3> {
         let capacity = |scalar| {
-            let (bodies, contacts) = self.of(scalar).capacity();
-            Capacity { scalar, bodies, contacts }
+            let (bodies, contacts) = self.of(scalar)?.capacity();
+            Some(Capacity { scalar, bodies, contacts })
         };
         [ScalarKind::Fixed, ScalarKind::F32, ScalarKind::F64]
             .into_iter()
-            .map(capacity)
+            .filter_map(capacity)
             .filter(|capacity| capacity.bodies > 0)
             .collect()
     }

@@ -8,7 +8,7 @@ use flat_wire::message::{
     Status, StreamRequest,
 };
 
-use crate::any_world::{Worlds, reason};
+use crate::any_world::{AnyWorld, Worlds, reason};
 use crate::cut::cut;
 use crate::identity::{Identity, Stopwatch};
 use crate::link::LinkCounters;
@@ -206,7 +206,9 @@ impl<'a> Session<'a> {
         let (Some(run), Some(scene)) = (&mut self.run, &mut self.scene) else {
             return false;
         };
-        let world = self.worlds.of_mut(scene.scalar);
+        let Some(world) = self.worlds.of_mut(scene.scalar) else {
+            return false; // a scene is only loaded into a world that is there
+        };
         if let Some(emission) = &mut run.emission {
             run.held = !emission.send(world, &run.record, &mut self.dropped, &mut self.sender, sink);
             if run.held {
@@ -289,7 +291,8 @@ impl<'a> Session<'a> {
             .parameters(request.bodies, request.seed, order)
             .and_then(|parameters| scene.vary(parameters, variant(&request.variant)))
             .map_err(|error| reason(format_args!("{error}")))?;
-        let world = self.worlds.of_mut(request.scalar);
+        let missing = || reason(format_args!("this device does without that number format"));
+        let world = self.worlds.of_mut(request.scalar).ok_or_else(missing)?;
         let effects = match request.effects {
             None => scene.effects,
             Some(bits) => {
@@ -331,7 +334,7 @@ impl<'a> Session<'a> {
             owed: 0,
             stage: 0,
             reading: None,
-            record: Record::new(self.worlds.of(scene.scalar).digest()),
+            record: Record::new(self.worlds.of(scene.scalar).map_or(0, AnyWorld::digest)),
             emission: None,
             held: false,
             dropped_before: self.dropped,
@@ -377,7 +380,7 @@ impl<'a> Session<'a> {
         if flip.bit >= bits {
             return Err(reason(format_args!("bit is {}, must be 0..={}", flip.bit, bits - 1)));
         }
-        if !self.worlds.of(scalar).holds(flip.body) {
+        if !self.worlds.of(scalar).is_some_and(|world| world.holds(flip.body)) {
             return Err(reason(format_args!("there is no body in slot {}", flip.body)));
         }
         Ok(())
