@@ -158,7 +158,7 @@ fn run_target(
     };
     if let Some(parting) = trace.parts_from(expected) {
         let mut mock = Side { client: reference, flip: None };
-        let found = compare::locate(&mut mock, side, &job.request, parting.step)?;
+        let found = compare::locate(&mut mock, side, job, parting.step)?;
         equal.outcome = Outcome::Failed;
         equal.step = Some(parting.step);
         equal.expected = format!("digest {:016x}", parting.expected);

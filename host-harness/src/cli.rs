@@ -14,6 +14,7 @@ use crate::effects::EffectsArgs;
 use crate::firmware::flash::FlashArgs;
 use crate::firmware::image::{Board, Build};
 use crate::firmware::inspect::InspectArgs;
+use crate::input::Inputs;
 use crate::job::Job;
 use crate::monitor::MonitorArgs;
 use crate::peers::PeersArgs;
@@ -116,7 +117,7 @@ pub struct RunArgs {
     pub variant: VariantArgs,
 
     /// Runs every scenario in all its perturbations: seeds, orders, mirrored, turned, shifted, gravities, mixtures, sizes
-    #[arg(long, conflicts_with_all = ["bodies", "seed", "order", "VariantArgs", "flip"])]
+    #[arg(long, conflicts_with_all = ["bodies", "seed", "order", "VariantArgs", "flip", "input"])]
     pub perturbed: bool,
 
     /// Prints the figure of every check beside its bar
@@ -130,6 +131,11 @@ pub struct RunArgs {
     /// Steps to run, 60 a second [default: the scene's]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_STEPS))]
     pub steps: Option<u32>,
+
+    /// What the player does, in scenarios that have one: buttons and how many steps they are held, one after the other, as in
+    /// `right:60 jump+right:20 idle:30`; @FILE reads that from a file [default: the scenario plays by itself]
+    #[arg(long, value_name = "INPUTS", value_parser = Inputs::read)]
+    pub input: Option<Inputs>,
 
     /// Writes everything that was found to this file
     #[arg(long, value_name = "FILE")]
@@ -188,6 +194,7 @@ impl RunArgs {
                 self.flip.map(|Flip { point, body, bit }| format!("{}:{}:{body}:{bit}", point.step, point.stage)),
             );
         }
+        words.extend(job.inputs.iter().flat_map(|inputs| ["--input".to_owned(), inputs.to_string()]));
         words.extend(variant::options(job.scene, &job.parameters));
         words.extend(self.setting.options());
         words.extend(self.reset.option().map(str::to_owned));

@@ -3,15 +3,14 @@
 use std::fmt;
 
 use flat_physics::Stage;
-use flat_wire::message::{
-    BodyState, Command, ContactState, Flip, Frame, Point, ScalarKind, SceneRequest, StreamRequest,
-};
+use flat_wire::message::{BodyState, Command, ContactState, Flip, Frame, Point, ScalarKind, StreamRequest};
 use serde::Serialize;
 
 use crate::client::Client;
 use crate::collect::Collector;
 use crate::drive;
 use crate::error::Error;
+use crate::job::Job;
 use crate::number::{Quantity, decode, hexadecimal};
 
 /// One side of a comparison: who, and the fault that is injected there.
@@ -82,36 +81,31 @@ pub enum Difference {
 ///
 /// # Errors
 /// If a target refuses, falls silent or goes away.
-pub fn locate(
-    reference: &mut Side<'_>,
-    target: &mut Side<'_>,
-    scene: &SceneRequest,
-    step: u32,
-) -> Result<Divergence, Error> {
+pub fn locate(reference: &mut Side<'_>, target: &mut Side<'_>, job: &Job, step: u32) -> Result<Divergence, Error> {
     // Nothing streams the scene as built, but the first stage moves nothing.
     let looked_at = step.max(1);
-    let expected = stage_digests(reference, scene, looked_at)?;
-    let found = stage_digests(target, scene, looked_at)?;
+    let expected = stage_digests(reference, job, looked_at)?;
+    let found = stage_digests(target, job, looked_at)?;
     let Some(stage) = expected.iter().zip(&found).position(|(expected, found)| expected != found) else {
         return Ok(Divergence { step, stage: None, difference: Difference::NotRepeated });
     };
     let at = Point { step: looked_at, stage: stage as u8 };
-    let expected = watch(reference, scene, at)?;
-    let found = watch(target, scene, at)?;
+    let expected = watch(reference, job, at)?;
+    let found = watch(target, job, at)?;
     Ok(Divergence {
         step,
         stage: Some(Stage::ALL[stage].to_string()),
-        difference: expected.differs(&found, scene.scalar),
+        difference: expected.differs(&found, job.request.scalar),
     })
 }
 
 /// Digests after each stage of one step.
-fn stage_digests(side: &mut Side<'_>, scene: &SceneRequest, wanted: u32) -> Result<Vec<u64>, Error> {
-    drive::load(side.client, scene, drive::LOSSLESS, side.flip)?;
-    drive::run_silently(side.client, 0, wanted - 1)?;
+fn stage_digests(side: &mut Side<'_>, job: &Job, wanted: u32) -> Result<Vec<u64>, Error> {
+    drive::load(side.client, &job.request, drive::LOSSLESS, side.flip)?;
+    drive::run_silently(side.client, job.inputs.as_ref(), 0, wanted - 1)?;
     side.client.order(&Command::Stream(StreamRequest { stage_digests: true, ..drive::LOSSLESS }))?;
     let mut found = None;
-    drive::run(side.client, wanted - 1, wanted, |frame| {
+    drive::run(side.client, job.inputs.as_ref(), wanted - 1, wanted, |frame| {
         if let Frame::StageDigests { step, digests } = frame
             && *step == wanted
         {
@@ -129,15 +123,15 @@ struct State {
 }
 
 /// The state at one point.
-fn watch(side: &mut Side<'_>, scene: &SceneRequest, wanted: Point) -> Result<State, Error> {
-    drive::load(side.client, scene, drive::LOSSLESS, side.flip)?;
-    drive::run_silently(side.client, 0, wanted.step - 1)?;
+fn watch(side: &mut Side<'_>, job: &Job, wanted: Point) -> Result<State, Error> {
+    drive::load(side.client, &job.request, drive::LOSSLESS, side.flip)?;
+    drive::run_silently(side.client, job.inputs.as_ref(), 0, wanted.step - 1)?;
     side.client.order(&Command::Watch(wanted))?;
     let missing_before = side.client.counters().missing;
     let mut all_bodies = None;
     let mut all_contacts = None;
     let (mut of_bodies, mut of_contacts) = (Collector::new(), Collector::new());
-    drive::run(side.client, wanted.step - 1, wanted.step, |frame| match frame {
+    drive::run(side.client, job.inputs.as_ref(), wanted.step - 1, wanted.step, |frame| match frame {
         Frame::Bodies { at, total, bodies } if *at == wanted => {
             all_bodies = of_bodies.push(*at, *total, bodies).or(all_bodies.take());
         }

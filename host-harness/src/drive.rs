@@ -6,6 +6,7 @@ use flat_wire::message::{Command, Detail, Flip, Flow, Frame, Loaded, Reply, Scen
 
 use crate::client::Client;
 use crate::error::Error;
+use crate::input::{Inputs, Span};
 
 /// Digests only, and the target rather waits for the link than drops one.
 pub const LOSSLESS: StreamRequest = StreamRequest {
@@ -64,9 +65,36 @@ pub struct End {
 
 /// Runs steps `from + 1 ..= to` and hands every frame to `on_frame`.
 ///
+/// Inputs are given between two runs, each of which ends where they change: so they count from exactly their step on, however
+/// slow the line is.
+///
 /// # Errors
 /// If the target refuses, goes away, or makes no progress for as long as the client's patience lasts.
-pub fn run(client: &mut Client, from: u32, to: u32, mut on_frame: impl FnMut(&Frame)) -> Result<End, Error> {
+pub fn run(
+    client: &mut Client,
+    inputs: Option<&Inputs>,
+    from: u32,
+    to: u32,
+    mut on_frame: impl FnMut(&Frame),
+) -> Result<End, Error> {
+    let Some(inputs) = inputs else {
+        return run_on(client, from, to, &mut on_frame);
+    };
+    let (mut reached, mut dropped) = (from, (0, 0));
+    for Span { buttons, to: next } in inputs.spans(from, to) {
+        client.order(&Command::Input { buttons: buttons.bits() })?;
+        let end = run_on(client, reached, next, &mut on_frame)?;
+        dropped = (dropped.0 + end.dropped_detail, dropped.1 + end.dropped_steps);
+        reached = next;
+        if end.step != next || next == to {
+            return Ok(End { dropped_detail: dropped.0, dropped_steps: dropped.1, ..end });
+        }
+    }
+    Err(Error::usage(format!("there is no step from {from} to {to}"), ""))
+}
+
+/// Runs steps in which no input changes.
+fn run_on(client: &mut Client, from: u32, to: u32, on_frame: &mut impl FnMut(&Frame)) -> Result<End, Error> {
     client.order(&Command::Run { steps: to - from })?;
     let mut reached = from;
     let mut progress = Instant::now();
@@ -97,9 +125,9 @@ pub fn run(client: &mut Client, from: u32, to: u32, mut on_frame: impl FnMut(&Fr
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_silently(client: &mut Client, from: u32, to: u32) -> Result<(), Error> {
+pub fn run_silently(client: &mut Client, inputs: Option<&Inputs>, from: u32, to: u32) -> Result<(), Error> {
     if from < to {
-        run(client, from, to, |_| {})?;
+        run(client, inputs, from, to, |_| {})?;
     }
     Ok(())
 }

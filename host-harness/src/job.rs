@@ -4,11 +4,12 @@ use std::fmt::Display;
 
 use flat_physics::Effects;
 use flat_rig::variant::{self, VariantArgs};
-use flat_scenes::{Parameters, Scene};
+use flat_scenes::{Parameters, Player, SCENES, Scene};
 use flat_wire::message::{Order, ScalarKind, SceneRequest};
 
-use crate::cli::{OrderArg, RunArgs};
+use crate::cli::{MOST_STEPS, OrderArg, RunArgs};
 use crate::error::Error;
+use crate::input::Inputs;
 use crate::report;
 use crate::setting::Setting;
 
@@ -21,6 +22,8 @@ pub struct Job {
     pub parameters: Parameters,
     /// The same for a device, and how to compute.
     pub request: SceneRequest,
+    /// What the player does; none = the scene plays by itself.
+    pub inputs: Option<Inputs>,
     /// Steps to run.
     pub steps: u32,
 }
@@ -55,7 +58,10 @@ impl Job {
 
     fn new(scene: &'static Scene, arguments: &RunArgs) -> Result<Self, Error> {
         let RunArgs { bodies, seed, order, steps, variant, .. } = *arguments;
-        let job = Self::of(scene, Choice { bodies, seed, order, steps, variant }, &arguments.setting)?;
+        let mut job = Self::of(scene, Choice { bodies, seed, order, steps, variant }, &arguments.setting)?;
+        if let Some(inputs) = &arguments.input {
+            job.play(inputs.clone(), steps)?;
+        }
         if let Some(flip) = arguments.flip {
             let bits = if job.request.scalar == ScalarKind::F64 { 64 } else { 32 };
             let steps = job.steps;
@@ -103,7 +109,30 @@ impl Job {
             effects: setting.effects.map(Effects::bits),
             variant: variant::requested(&parameters.variant),
         };
-        Ok(Self { scene, parameters, request, steps })
+        Ok(Self { scene, parameters, request, inputs: None, steps })
+    }
+
+    /// Lets a player play, for as long as its inputs last unless there is a number of steps.
+    fn play(&mut self, inputs: Inputs, steps: Option<u32>) -> Result<(), Error> {
+        if self.scene.demo.is_none() {
+            let players = SCENES.iter().filter(|scene| scene.demo.is_some()).map(|scene| scene.name);
+            return Err(Error::usage(
+                format!("{}: --input, but the scene has no player", self.scene.name),
+                format!("one that has: {}", players.collect::<Vec<_>>().join(", ")),
+            ));
+        }
+        self.steps = steps.unwrap_or(inputs.steps());
+        if self.steps < inputs.steps() || i64::from(self.steps) > MOST_STEPS {
+            let (scene, lasting, run) = (self.scene, inputs.steps(), self.steps.min(MOST_STEPS as u32));
+            return Err(wrong(scene, &format!("--input lasts {lasting} steps, the run {run}")));
+        }
+        self.inputs = Some(inputs);
+        Ok(())
+    }
+
+    /// Who plays.
+    pub fn player(&self) -> Player {
+        if self.inputs.is_some() { Player::Host } else { Player::Demo }
     }
 
     /// The parameters for the report.

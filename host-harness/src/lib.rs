@@ -2,5 +2,6 @@
 #![deny(missing_docs)]
 
 pub mod check;
+pub mod input;
 pub mod number;
 pub mod variant;

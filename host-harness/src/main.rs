@@ -36,7 +36,7 @@ mod verify;
 use std::process::ExitCode;
 
 use clap::Parser;
-use flat_rig::{check, number};
+use flat_rig::{check, input, number};
 
 use cli::{Cli, Command};
 

@@ -24,7 +24,7 @@ impl Observer {
     /// Watches a job for what its scene promises.
     pub fn new(job: &Job) -> Self {
         Self {
-            checks: Checks::new(job.scene, &job.parameters, job.request.scalar),
+            checks: Checks::new(job.scene, &job.parameters, job.request.scalar, job.player()),
             steps: job.steps,
             of_bodies: Collector::new(),
             of_contacts: Collector::new(),

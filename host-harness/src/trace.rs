@@ -57,7 +57,7 @@ impl Trace {
         let mut digests = vec![None; job.steps as usize];
         let mut counters = None;
         let loaded = drive::load(client, &job.request, stream, flip)?;
-        let end = drive::run(client, 0, job.steps, |frame| {
+        let end = drive::run(client, job.inputs.as_ref(), 0, job.steps, |frame| {
             match frame {
                 Frame::Step { step, digest } => {
                     progress.reached(*step);

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use flat_physics::{Fixed, Level, Quantity, Scalar, Storage, World, digest, step};
 use flat_rig::check::{Checks, Finding, Outcome};
 use flat_rig::variant::options;
-use flat_scenes::{Cue, Parameters, SCENES, Scene, Shortfall, find};
+use flat_scenes::{Buttons, Cue, Memory, Parameters, Player, SCENES, Scene, Shortfall, find};
 use flat_wire::message::{BodyState, ContactState, ScalarKind};
 
 /// Runs a scene and checks what it promises.
@@ -15,9 +15,10 @@ fn run<S: Scalar>(scene: &Scene, parameters: &Parameters, level: Level, scalar: 
     let mut storage = Box::new(Storage::<S, 512, 4096, 2048>::new());
     let mut world = storage.world();
     scene.build(parameters, level, &mut world).unwrap_or_else(|error| panic!("{}: {error}", scene.name));
-    let mut checks = Checks::new(scene, parameters, scalar);
+    let mut checks = Checks::new(scene, parameters, scalar, Player::Demo);
+    let mut memory = Memory::default();
     for number in 1..=scene.battery_steps() {
-        let directed = scene.direct(parameters, Cue { step: number, buttons: 0 }, &mut world);
+        let directed = scene.direct(parameters, Cue::unattended(number), &mut memory, &mut world);
         directed.unwrap_or_else(|error| panic!("{} step {number}: {error}", scene.name));
         step(&mut world, scene.effects);
         let contacts = if checks.want_contacts { contacts(&world) } else { Vec::new() };
@@ -128,6 +129,7 @@ const MOVED: &[&str] = &["push", "lift", "crush"];
 const SHOT: &[&str] = &["shots", "tile_shots"];
 const ON_TILES: &[&str] = &["tile_level", "seams"];
 const CHURNED: &[&str] = &["churn", "soak"];
+const PLAYED: &[&str] = &["platformer"];
 
 #[test]
 fn what_flies_follows_the_closed_form() {
@@ -195,15 +197,49 @@ fn bodies_come_and_go_without_a_trace() {
 }
 
 #[test]
+fn a_player_gets_where_it_should_and_never_into_a_wall() {
+    hold(PLAYED);
+}
+
+#[test]
+fn whatever_is_pressed_no_player_gets_into_a_wall() {
+    for scene in SCENES.iter().filter(|scene| scene.demo.is_some()) {
+        for seed in 0..20_u32 {
+            let mut storage = Box::new(Storage::<Fixed, 64, 512, 2048>::new());
+            let mut world = storage.world();
+            scene.build(&scene.defaults, Level::Grounded, &mut world).unwrap();
+            let mut checks = Checks::new(scene, &scene.defaults, ScalarKind::Fixed, Player::Host);
+            let (mut memory, mut random) = (Memory::default(), seed);
+            let mut buttons = Buttons::IDLE;
+            for number in 1..=1200 {
+                if number % 12 == 0 {
+                    // A linear congruential generator (Numerical Recipes); its upper bits are the better ones.
+                    random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                    buttons = Buttons::from_bits((random >> 28) as u8).unwrap();
+                }
+                let cue = Cue { step: number, buttons: Some(buttons) };
+                scene.direct(&scene.defaults, cue, &mut memory, &mut world).unwrap();
+                step(&mut world, scene.effects);
+                checks.observe(number, &bodies(&world), &[]);
+            }
+            for finding in checks.findings() {
+                assert_eq!(finding.outcome, Outcome::Held, "{} seed {seed}: {finding:?}", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
 fn an_hour_of_everything_ends_in_the_same_bits_twice() {
     let soak = find("soak").unwrap();
     let hour = || {
         let mut storage = Box::new(Storage::<Fixed, 64, 512>::new());
         let mut world = storage.world();
         soak.build(&soak.defaults, Level::Grounded, &mut world).unwrap();
-        let mut checks = Checks::new(soak, &soak.defaults, ScalarKind::Fixed);
+        let mut checks = Checks::new(soak, &soak.defaults, ScalarKind::Fixed, Player::Demo);
+        let mut memory = Memory::default();
         for number in 1..=216_000 {
-            soak.direct(&soak.defaults, Cue { step: number, buttons: 0 }, &mut world).unwrap();
+            soak.direct(&soak.defaults, Cue::unattended(number), &mut memory, &mut world).unwrap();
             step(&mut world, soak.effects);
             if number % 60 == 0 {
                 checks.observe(number, &bodies(&world), &[]);
@@ -221,7 +257,8 @@ fn an_hour_of_everything_ends_in_the_same_bits_twice() {
 
 #[test]
 fn every_scene_is_in_the_battery() {
-    let groups = [FREE, LONG, BOUNCING, SLIDING, STANDING, PITS, APART, HEAPS, TIGHT, MOVED, SHOT, ON_TILES, CHURNED];
+    let groups =
+        [FREE, LONG, BOUNCING, SLIDING, STANDING, PITS, APART, HEAPS, TIGHT, MOVED, SHOT, ON_TILES, CHURNED, PLAYED];
     let mut names = groups.concat();
     let mut all: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();
     names.sort_unstable();

@@ -58,7 +58,6 @@ pub(super) struct Body {
 
 impl Body {
     /// A body of mass 1 at rest that can move.
-    #[cfg(test)]
     pub(super) fn at(position: [f64; 2], extent: Extent) -> Self {
         Self {
             number: 0,

@@ -9,8 +9,10 @@ mod finding;
 mod load;
 mod momentum;
 mod opposite;
+mod out_of_tiles;
 mod parabola;
 mod penetration;
+mod place;
 mod rest;
 mod series;
 mod sides;
@@ -26,7 +28,7 @@ mod worst;
 
 use std::fmt::Debug;
 
-use flat_scenes::{Parameters, Promise, Scene, Shortfall};
+use flat_scenes::{Parameters, Player, Promise, Scene, Shortfall};
 use flat_wire::message::{BodyState, ContactState, ScalarKind};
 
 use crate::number::{Quantity, decode};
@@ -79,11 +81,11 @@ pub struct Checks {
 
 impl Checks {
     /// One check for every promise.
-    pub fn new(scene: &Scene, parameters: &Parameters, scalar: ScalarKind) -> Self {
+    pub fn new(scene: &Scene, parameters: &Parameters, scalar: ScalarKind, player: Player) -> Self {
         let bodies = Bodies::of(scene, parameters, scalar);
         let gravity = parameters.variant.turn_back(scene.gravity(parameters)).y.into();
-        let promises = scene.promises(parameters);
-        let watches = promises.iter().map(|promise| check(promise, &bodies, scalar, gravity)).collect();
+        let promises = scene.promises(parameters, player);
+        let watches = promises.iter().map(|promise| check(promise, scene, &bodies, scalar, gravity)).collect();
         let want_contacts = promises.iter().any(|promise| matches!(promise, Promise::Load { .. } | Promise::Momentum));
         Self { bodies, scalar, watches, shortfalls: scene.shortfalls, want_contacts, gravity, series: None }
     }
@@ -124,7 +126,7 @@ impl Checks {
 }
 
 /// The check of a promise, in a scene with this gravity, px/s2 downwards.
-fn check(promise: &Promise, bodies: &Bodies, scalar: ScalarKind, gravity: f64) -> Box<dyn Check> {
+fn check(promise: &Promise, scene: &Scene, bodies: &Bodies, scalar: ScalarKind, gravity: f64) -> Box<dyn Check> {
     let slot = |number| bodies.slot_of(number);
     match *promise {
         Promise::Within { min, max, tolerance } => Box::new(within::Within::new(min, max, tolerance)),
@@ -152,6 +154,12 @@ fn check(promise: &Promise, bodies: &Bodies, scalar: ScalarKind, gravity: f64) -
         Promise::Sides => Box::new(sides::Sides::new()),
         Promise::Load { body, from, mass, tolerance } => {
             Box::new(load::Load::new(slot(body), body, from, f64::from(mass) * gravity / STEP_HZ, tolerance))
+        }
+        Promise::Place { body, step, at, tolerance } => {
+            Box::new(place::Place::new(slot(body), body, step, at, tolerance))
+        }
+        Promise::OutOfTiles { body, at_most } => {
+            Box::new(out_of_tiles::OutOfTiles::new(slot(body), body, scene.solid_tiles(), at_most))
         }
     }
 }

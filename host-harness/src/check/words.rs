@@ -53,6 +53,12 @@ impl fmt::Display for Words<'_> {
                 let tolerance = percent(tolerance);
                 write!(f, "body {body} carries a mass of {mass:.2} +-{tolerance:.2} % from step {from}")
             }
+            Promise::Place { body, step, at, tolerance } => {
+                write!(f, "body {body} is at ({:.1}, {:.1}) +-{tolerance:.2} px after step {step}", at.x, at.y)
+            }
+            Promise::OutOfTiles { body, at_most } => {
+                write!(f, "body {body} never reaches deeper than {at_most:.3} px into a solid tile")
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The scenarios and what they promise, as a table.
 
 use comfy_table::{ContentArrangement, Table, presets};
-use flat_scenes::Scene;
+use flat_scenes::{Player, Scene};
 
 use crate::check::Words;
 
@@ -15,7 +15,7 @@ pub fn print(scenes: &[&Scene]) {
     for scene in scenes {
         let parameters = scene.defaults;
         let promises: Vec<String> =
-            scene.promises(&parameters).iter().map(|promise| Words(promise).to_string()).collect();
+            scene.promises(&parameters, Player::Demo).iter().map(|promise| Words(promise).to_string()).collect();
         table.add_row([
             scene.name.to_owned(),
             scene.purpose.to_owned(),

@@ -107,7 +107,7 @@ fn reference(scene: &SceneRequest, means: &Means) -> Result<Vec<u64>, Error> {
     let (mut mock, _) = Client::connect(Target::Mock.open(means)?, Target::Mock.label(), means.patience)?;
     drive::load(&mut mock, scene, drive::LOSSLESS, None)?;
     let mut digests = Vec::new();
-    drive::run(&mut mock, 0, STEPS, |frame| {
+    drive::run(&mut mock, None, 0, STEPS, |frame| {
         if let Frame::Step { digest, .. } = frame {
             digests.push(*digest);
         }

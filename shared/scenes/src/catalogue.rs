@@ -12,6 +12,7 @@ pub(crate) mod floating;
 pub(crate) mod heap;
 pub(crate) mod kinematic;
 pub(crate) mod overlap;
+pub(crate) mod platformer;
 pub(crate) mod projectile;
 pub(crate) mod pyramid;
 pub(crate) mod shots;
@@ -44,7 +45,7 @@ const COMMON: Scene = Scene {
     sizes: &[],
     gravity: 200,
     takes: Takes::GRAVITIES,
-    player: false,
+    demo: None,
     tiles: None,
     total: |parameters| parameters.bodies + 1,
     contacts: |parameters, level| match level {

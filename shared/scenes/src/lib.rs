@@ -8,7 +8,10 @@
 #![deny(missing_docs)]
 
 mod build;
+mod buttons;
 mod catalogue;
+mod control;
+mod hand;
 mod parameters;
 mod perturb;
 mod promise;
@@ -17,11 +20,12 @@ mod script;
 mod tiles;
 
 pub use build::BuildError;
+pub use buttons::{Buttons, Hold};
 pub use parameters::{Mix, Order, ParameterError, Parameters, Takes, Turns, Variant};
 pub use perturb::Battery;
 pub use promise::{Promise, Shortfall};
-pub use scene::{Capacity, Promises, Scene};
-pub use script::Cue;
+pub use scene::{Capacity, Demo, Player, Promises, Scene};
+pub use script::{Cue, Memory};
 
 /// All built-in scenes.
 pub static SCENES: &[Scene] = &[
@@ -64,6 +68,7 @@ pub static SCENES: &[Scene] = &[
     catalogue::tile_level::TILE_LEVEL,
     catalogue::tile_level::SEAMS,
     catalogue::tile_shots::SCENE,
+    catalogue::platformer::SCENE,
 ];
 
 /// The scene of that name.

@@ -137,4 +137,22 @@ pub enum Promise {
         /// How far off is still right, as a part of the load.
         tolerance: I16F16,
     },
+    /// After a step, a body's centre is where it should be.
+    Place {
+        /// The body's number.
+        body: u16,
+        /// The step.
+        step: u32,
+        /// Where the centre should be.
+        at: Vec2<I16F16>,
+        /// How far off is still right, along each axis.
+        tolerance: I16F16,
+    },
+    /// A body never reaches into a solid tile deeper than this. Not for tiles that come and go.
+    OutOfTiles {
+        /// The body's number.
+        body: u16,
+        /// Depth.
+        at_most: I16F16,
+    },
 }

@@ -7,6 +7,7 @@ use flat_physics::scalar::px;
 use flat_physics::{BodyDef, Effects, Fixed, Level, Vec2, vec2};
 use heapless::Vec;
 
+use crate::buttons::Hold;
 use crate::parameters::{Order, ParameterError, Parameters, Takes, Variant};
 use crate::promise::{Promise, Shortfall};
 use crate::script::Script;
@@ -38,8 +39,8 @@ pub struct Scene {
     pub gravity: i16,
     /// Departures that it can take.
     pub takes: Takes,
-    /// Whether somebody may play.
-    pub player: bool,
+    /// How the scene plays by itself; none = there is no player.
+    pub demo: Option<Demo>,
     pub(crate) tiles: Option<Tiles>,
     /// All bodies, walls and floors included.
     pub(crate) total: fn(&Parameters) -> u16,
@@ -49,6 +50,24 @@ pub struct Scene {
     pub(crate) promises: fn(&Parameters) -> Promises,
     /// Promises that are not kept yet.
     pub shortfalls: &'static [Shortfall],
+}
+
+/// Who plays a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Player {
+    /// Nobody: a scene with a player plays its demo.
+    Demo,
+    /// The host, by what it says is held down.
+    Host,
+}
+
+/// What a scene with a player does while nobody plays.
+#[derive(Clone, Copy, Debug)]
+pub struct Demo {
+    /// What is held down, one after the other from the first step on.
+    pub holds: &'static [Hold],
+    /// What must hold besides if that is what is played.
+    pub(crate) promises: fn(&Parameters) -> Promises,
 }
 
 /// Room in a world.
@@ -120,7 +139,18 @@ impl Scene {
     }
 
     /// What must hold, in the scene's own coordinates: those in which it is neither turned nor shifted.
-    pub fn promises(&self, parameters: &Parameters) -> Promises {
-        (self.promises)(parameters)
+    ///
+    /// If the host plays, that is less: where the player gets, and what it collects, is then up to the host.
+    pub fn promises(&self, parameters: &Parameters, player: Player) -> Promises {
+        let demo = self.demo.filter(|_| player == Player::Demo);
+        let mut promises = (self.promises)(parameters);
+        promises.extend(demo.into_iter().flat_map(|demo| (demo.promises)(parameters)));
+        promises
+    }
+
+    /// Upper left and lower right corner of each tile that blocks from all sides while it is there, in the scene's own
+    /// coordinates, px.
+    pub fn solid_tiles(&self) -> impl Iterator<Item = [Vec2<I16F16>; 2]> {
+        self.tiles.iter().flat_map(Tiles::solid)
     }
 }

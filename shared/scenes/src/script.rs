@@ -1,31 +1,49 @@
-//! What a scene does to its world while it runs: before each step, a pure function of the parameters and the step.
+//! What a scene does to its world while it runs: before each step, by the parameters, the step and the player.
 
 use fixed::types::I16F16;
-use flat_physics::{Error, Handle, Scalar, Vec2, World};
+use flat_physics::{Collider, Error, Scalar, Vec2, World};
 
+use crate::buttons::{Buttons, Hold};
+use crate::control::Control;
+use crate::hand::Hand;
 use crate::parameters::Parameters;
 use crate::scene::Scene;
 
 /// Called before each step.
-pub(crate) type Script = fn(&Parameters, Cue, &mut dyn Control);
+pub(crate) type Script = fn(&Parameters, Moment, &mut dyn Control);
 
-/// When a script is called, and what the player does.
+/// When a scene is directed, and what the player does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cue {
     /// The step to come, counted from 1.
     pub step: u32,
-    /// What the player holds down: left, right, jump, down, a bit each, from the lowest.
-    pub buttons: u8,
+    /// What the player holds down; none = nobody plays, and the scene plays by itself.
+    pub buttons: Option<Buttons>,
 }
 
-/// What a script can do, by the bodies' numbers and in the scene's own coordinates.
-pub(crate) trait Control {
-    /// Gives a body another velocity, px/s.
-    fn set_velocity(&mut self, number: u16, velocity: Vec2<I16F16>);
-    /// Puts a body elsewhere, px.
-    fn set_position(&mut self, number: u16, position: Vec2<I16F16>);
-    /// Removes a body and puts it back as the scene defines it.
-    fn replace(&mut self, number: u16);
+impl Cue {
+    /// A step of a scene that nobody plays.
+    pub const fn unattended(step: u32) -> Self {
+        Self { step, buttons: None }
+    }
+}
+
+/// What a script is told of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moment {
+    /// The step to come, counted from 1.
+    pub(crate) step: u32,
+    /// What is held down, by whoever plays.
+    pub(crate) buttons: Buttons,
+}
+
+/// What a script keeps from step to step besides the world: how its player moves. New whenever the scene is built.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// The player's velocity, px/s.
+    pub(crate) velocity: Vec2<I16F16>,
+    /// What the player stands on, and where it stands there, px.
+    pub(crate) footing: Option<(Collider, Vec2<I16F16>)>,
 }
 
 impl Scene {
@@ -37,60 +55,16 @@ impl Scene {
         &self,
         parameters: &Parameters,
         cue: Cue,
+        memory: &mut Memory,
         world: &mut World<'_, S>,
     ) -> Result<(), Error<S>> {
         let Some(script) = self.script else {
             return Ok(());
         };
-        let mut hand = Hand { scene: self, parameters, world, refused: None };
-        script(parameters, cue, &mut hand);
+        let by_itself = || self.demo.map_or(Buttons::IDLE, |demo| Hold::at(demo.holds, cue.step));
+        let moment = Moment { step: cue.step, buttons: cue.buttons.unwrap_or_else(by_itself) };
+        let mut hand = Hand { scene: self, parameters, memory, world, refused: None };
+        script(parameters, moment, &mut hand);
         hand.refused.map_or(Ok(()), Err)
-    }
-}
-
-/// Turns what a script says into what the world understands.
-struct Hand<'h, 'w, S: Scalar> {
-    scene: &'h Scene,
-    parameters: &'h Parameters,
-    world: &'h mut World<'w, S>,
-    refused: Option<Error<S>>,
-}
-
-impl<'w, S: Scalar> Hand<'_, 'w, S> {
-    /// The body of that number: its user data says so.
-    fn find(&self, number: u16) -> Option<Handle> {
-        self.world.bodies().find(|body| body.user_data == u32::from(number)).map(|body| body.handle)
-    }
-
-    /// Does something to a body, if it is there.
-    fn with(&mut self, number: u16, act: impl FnOnce(&mut World<'w, S>, Handle) -> Result<(), Error<S>>) {
-        if let Some(handle) = self.find(number) {
-            let outcome = act(self.world, handle);
-            self.note(outcome);
-        }
-    }
-
-    fn note(&mut self, outcome: Result<(), Error<S>>) {
-        self.refused = self.refused.or(outcome.err());
-    }
-}
-
-impl<S: Scalar> Control for Hand<'_, '_, S> {
-    fn set_velocity(&mut self, number: u16, velocity: Vec2<I16F16>) {
-        let velocity = self.parameters.variant.turn(velocity).map(S::real);
-        self.with(number, |world, handle| world.set_velocity(handle, velocity));
-    }
-
-    fn set_position(&mut self, number: u16, position: Vec2<I16F16>) {
-        let position = self.parameters.variant.place(position).map(S::real);
-        self.with(number, |world, handle| world.set_position(handle, position));
-    }
-
-    fn replace(&mut self, number: u16) {
-        // The slot that is given back first is taken first: the body keeps its slot.
-        self.with(number, World::despawn);
-        let def = self.scene.body(self.parameters, number).convert();
-        let back = self.world.spawn(&def).map(|_| ());
-        self.note(back);
     }
 }

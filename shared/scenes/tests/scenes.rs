@@ -2,7 +2,7 @@
 
 use fixed::types::I16F16;
 use flat_physics::{Effects, Error, Fixed, Level, Quantity, Scalar, Statistics, Storage, Vec2, World, digest, step};
-use flat_scenes::{BuildError, Capacity, Cue, Mix, Order, Parameters, SCENES, Scene, Variant, find};
+use flat_scenes::{BuildError, Capacity, Cue, Memory, Mix, Order, Parameters, SCENES, Scene, Variant, find};
 
 /// Steps that tell one solver from another.
 const SHORT: u32 = 600;
@@ -20,9 +20,10 @@ fn built<'a, S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES:
 }
 
 fn advance<S: Scalar>(world: &mut World<'_, S>, scene: &Scene, parameters: &Parameters, steps: u32) {
+    let mut memory = Memory::default();
     for number in 1..=steps {
-        let cue = Cue { step: number, buttons: 0 };
-        scene.direct(parameters, cue, world).unwrap_or_else(|error| panic!("{} step {number}: {error}", scene.name));
+        let directed = scene.direct(parameters, Cue::unattended(number), &mut memory, world);
+        directed.unwrap_or_else(|error| panic!("{} step {number}: {error}", scene.name));
         step(world, scene.effects);
     }
 }

@@ -3,7 +3,7 @@
 use flat_physics::{
     BodyView, Collider, Config, Effects, Event, Fixed, Handle, Level, Quantity, Scalar, Stage, Statistics, World,
 };
-use flat_scenes::{Cue, Parameters, Scene};
+use flat_scenes::{Cue, Memory, Parameters, Scene};
 use flat_wire::message::{
     BODIES_PER_FRAME, BodyPosition, BodyState, CONTACTS_PER_FRAME, Capacity, ContactEvent, ContactState,
     EVENTS_PER_FRAME, Measures, POSITIONS_PER_FRAME, Phase, Reason, ScalarKind,
@@ -84,7 +84,7 @@ pub(crate) trait AnyWorld {
         iterations: Option<u8>,
     ) -> Result<(), Reason>;
     /// Does what the scene does before a step; false if the world refused any of it.
-    fn direct(&mut self, scene: &Scene, parameters: &Parameters, cue: Cue) -> bool;
+    fn direct(&mut self, scene: &Scene, parameters: &Parameters, cue: Cue, memory: &mut Memory) -> bool;
     fn run(&mut self, stage: Stage, effects: Effects);
     fn digest(&self) -> u64;
     fn statistics(&self) -> Statistics;
@@ -122,8 +122,8 @@ impl<S: Scalar> AnyWorld for World<'_, S> {
         Ok(())
     }
 
-    fn direct(&mut self, scene: &Scene, parameters: &Parameters, cue: Cue) -> bool {
-        scene.direct(parameters, cue, self).is_ok()
+    fn direct(&mut self, scene: &Scene, parameters: &Parameters, cue: Cue, memory: &mut Memory) -> bool {
+        scene.direct(parameters, cue, memory, self).is_ok()
     }
 
     fn run(&mut self, stage: Stage, effects: Effects) {

@@ -1,7 +1,7 @@
 //! The session: which scene runs, how far it is, what the host was promised.
 
 use flat_physics::{Effects, Level, Pace, Scheduler, Stage};
-use flat_scenes::{Cue, Mix, Parameters, Scene, Variant};
+use flat_scenes::{Buttons, Cue, Memory, Mix, Parameters, Scene, Variant};
 use flat_wire::PROTOCOL_VERSION;
 use flat_wire::message::{
     self, Command, Detail, Event, Flip, Frame, Loaded, Order, Point, Reply, STAGES, ScalarKind, SceneRequest, Stack,
@@ -50,8 +50,9 @@ struct Loadout {
     effects: Effects,
     /// Steps done.
     step: u32,
-    /// What the player holds down.
-    buttons: u8,
+    /// What the player holds down; none = nobody plays.
+    buttons: Option<Buttons>,
+    memory: Memory,
 }
 
 /// A run under way.
@@ -233,7 +234,7 @@ impl<'a> Session<'a> {
         }
         if run.stage == 0 {
             let cue = Cue { step, buttons: scene.buttons };
-            if !world.direct(scene.scene, &scene.parameters, cue) {
+            if !world.direct(scene.scene, &scene.parameters, cue, &mut scene.memory) {
                 // The host is promised a number of steps: an early end tells it that the scene has come to grief.
                 run.remaining = 1;
             }
@@ -301,7 +302,8 @@ impl<'a> Session<'a> {
         };
         world.load(scene, &parameters, level, request.iterations)?;
         let loaded = Loaded { bodies: world.statistics().bodies, digest: world.digest() };
-        self.scene = Some(Loadout { scene, parameters, scalar: request.scalar, effects, step: 0, buttons: 0 });
+        let (scalar, memory) = (request.scalar, Memory::default());
+        self.scene = Some(Loadout { scene, parameters, scalar, effects, step: 0, buttons: None, memory });
         (self.run, self.watch, self.flip) = (None, None, None);
         (self.dropped, self.punctuality) = (Dropped::default(), Punctuality::default());
         Ok(loaded)
@@ -309,8 +311,10 @@ impl<'a> Session<'a> {
 
     fn input(&mut self, buttons: u8) -> Result<(), message::Reason> {
         match &mut self.scene {
-            Some(scene) if scene.scene.player => {
-                scene.buttons = buttons;
+            Some(scene) if scene.scene.demo.is_some() => {
+                let known = Buttons::from_bits(buttons);
+                let held = known.ok_or_else(|| reason(format_args!("buttons {buttons:#x} hold an unknown bit")))?;
+                scene.buttons = Some(held);
                 Ok(())
             }
             Some(scene) => Err(reason(format_args!("{} has no player", scene.scene.name))),

@@ -6,7 +6,7 @@
 
 use flat_physics::{Effects, Fixed, Level, Only, Scalar, Stage, Storage, World, digest, step};
 use flat_probe::{EFFECTS, END, FAIL, MARK, call, end};
-use flat_scenes::{Cue, Order, SCENES};
+use flat_scenes::{Cue, Memory, Order, SCENES};
 
 const BODIES: usize = 1024;
 const CONTACTS: usize = 8192;
@@ -69,8 +69,9 @@ fn run<S: Scalar>(mut world: World<'_, S>, request: &Request) -> ! {
         end(FAIL, [4, 0]);
     }
     let effects = Effects::from_bits(request.effects as u16).unwrap_or(Effects::NONE);
+    let mut memory = Memory::default();
     for number in 1..=request.steps {
-        if scene.direct(&parameters, Cue { step: number, buttons: 0 }, &mut world).is_err() {
+        if scene.direct(&parameters, Cue::unattended(number), &mut memory, &mut world).is_err() {
             end(FAIL, [5, number]);
         }
         if EFFECTS.is_some() {

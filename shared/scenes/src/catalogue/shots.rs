@@ -5,10 +5,11 @@ use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects, Fixed, Shape, vec2};
 
 use super::{COMMON, at, body, bouncy, circle, square, usual};
+use crate::control::Control;
 use crate::parameters::{Parameters, Takes};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
-use crate::script::{Control, Cue};
+use crate::script::Moment;
 
 /// Steps between volleys: enough for the slowest shot to arrive.
 const VOLLEY: u32 = 16;
@@ -59,7 +60,7 @@ fn aimed(parameters: &Parameters, number: u16, volley: u32) -> BodyDef<Fixed> {
 }
 
 /// Puts everything back and shoots again.
-fn reload(parameters: &Parameters, cue: Cue, control: &mut dyn Control) {
+fn reload(parameters: &Parameters, cue: Moment, control: &mut dyn Control) {
     if cue.step % VOLLEY != 1 {
         return;
     }

@@ -5,10 +5,11 @@ use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects, Fixed, Material, Shape, vec2};
 
 use super::{COMMON, at, body, circle, square, usual, wall};
+use crate::control::Control;
 use crate::parameters::{Parameters, Takes, Turns};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
-use crate::script::{Control, Cue};
+use crate::script::Moment;
 
 const HALF: i16 = 6;
 /// Inner size of the room, px.
@@ -73,7 +74,7 @@ fn member(parameters: &Parameters, number: u16) -> BodyDef<Fixed> {
 }
 
 /// The platform goes to and fro; every half second one body is dropped anew.
-fn script(parameters: &Parameters, cue: Cue, control: &mut dyn Control) {
+fn script(parameters: &Parameters, cue: Moment, control: &mut dyn Control) {
     if cue.step.is_multiple_of(PASS) {
         let leftwards = (cue.step / PASS) % 2 == 1;
         control.set_velocity(PLATFORM, at(if leftwards { -30 } else { 30 }, 0));

@@ -6,10 +6,11 @@ use flat_physics::tiles::TileFlags;
 use flat_physics::{BodyDef, Effects, Fixed, vec2};
 
 use super::{COMMON, at, body, bouncy, circle, dull, square, usual};
+use crate::control::Control;
 use crate::parameters::{Parameters, Takes, Turns};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
-use crate::script::{Control, Cue};
+use crate::script::Moment;
 use crate::tiles::Tiles;
 
 /// Side of the level's tiles, px.
@@ -171,7 +172,7 @@ fn sliding(parameters: &Parameters, number: u16, pass: u32) -> BodyDef<Fixed> {
 }
 
 /// Puts whoever has slid far enough back to where it came from.
-fn back_to_the_start(parameters: &Parameters, cue: Cue, control: &mut dyn Control) {
+fn back_to_the_start(parameters: &Parameters, cue: Moment, control: &mut dyn Control) {
     for number in 0..parameters.bodies {
         let steps = 60 * Side::of(number).length() / u32::from(speed(number).unsigned_abs());
         if cue.step > 1 && cue.step % steps == 1 {
