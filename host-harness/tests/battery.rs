@@ -129,7 +129,10 @@ const MOVED: &[&str] = &["push", "lift", "crush"];
 const SHOT: &[&str] = &["shots", "tile_shots"];
 const ON_TILES: &[&str] = &["tile_level", "seams"];
 const CHURNED: &[&str] = &["churn", "soak"];
-const PLAYED: &[&str] = &["platformer"];
+const PLAYED: &[&str] = &["platformer", "ledges"];
+const TOLD: &[&str] = &["tripwires"];
+const LOOKING: &[&str] = &["patrol"];
+const CRUMBLING: &[&str] = &["crumble"];
 
 #[test]
 fn what_flies_follows_the_closed_form() {
@@ -202,6 +205,21 @@ fn a_player_gets_where_it_should_and_never_into_a_wall() {
 }
 
 #[test]
+fn sensors_tell_of_each_visit_once() {
+    hold(TOLD);
+}
+
+#[test]
+fn who_looks_ahead_hits_nothing_and_falls_off_nothing() {
+    hold(LOOKING);
+}
+
+#[test]
+fn tiles_hold_while_they_are_there() {
+    hold(CRUMBLING);
+}
+
+#[test]
 fn whatever_is_pressed_no_player_gets_into_a_wall() {
     for scene in SCENES.iter().filter(|scene| scene.demo.is_some()) {
         for seed in 0..20_u32 {
@@ -257,8 +275,10 @@ fn an_hour_of_everything_ends_in_the_same_bits_twice() {
 
 #[test]
 fn every_scene_is_in_the_battery() {
-    let groups =
-        [FREE, LONG, BOUNCING, SLIDING, STANDING, PITS, APART, HEAPS, TIGHT, MOVED, SHOT, ON_TILES, CHURNED, PLAYED];
+    let groups = [
+        FREE, LONG, BOUNCING, SLIDING, STANDING, PITS, APART, HEAPS, TIGHT, MOVED, SHOT, ON_TILES, CHURNED, PLAYED,
+        TOLD, LOOKING, CRUMBLING,
+    ];
     let mut names = groups.concat();
     let mut all: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();
     names.sort_unstable();

@@ -17,6 +17,7 @@ mod rest;
 mod series;
 mod sides;
 mod slip;
+mod stays;
 mod steady;
 mod still;
 mod stop_distance;
@@ -157,6 +158,9 @@ fn check(promise: &Promise, scene: &Scene, bodies: &Bodies, scalar: ScalarKind, 
         }
         Promise::Place { body, step, at, tolerance } => {
             Box::new(place::Place::new(slot(body), body, step, at, tolerance))
+        }
+        Promise::Stays { body, min, max, tolerance } => {
+            Box::new(stays::Stays::new(slot(body), body, [min, max], tolerance))
         }
         Promise::OutOfTiles { body, at_most } => {
             Box::new(out_of_tiles::OutOfTiles::new(slot(body), body, scene.solid_tiles(), at_most))

@@ -56,6 +56,10 @@ impl fmt::Display for Words<'_> {
             Promise::Place { body, step, at, tolerance } => {
                 write!(f, "body {body} is at ({:.1}, {:.1}) +-{tolerance:.2} px after step {step}", at.x, at.y)
             }
+            Promise::Stays { body, min, max, tolerance } => {
+                let (x, y) = ((min.x, max.x), (min.y, max.y));
+                write!(f, "body {body} stays within x {}..{}, y {}..{}, +-{tolerance:.2} px", x.0, x.1, y.0, y.1)
+            }
             Promise::OutOfTiles { body, at_most } => {
                 write!(f, "body {body} never reaches deeper than {at_most:.3} px into a solid tile")
             }

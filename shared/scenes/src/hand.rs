@@ -1,9 +1,11 @@
 //! A script's hand in a world.
 
 use fixed::types::I16F16;
-use flat_physics::{Collider, Error, Footing, Handle, Scalar, SlideOptions, Vec2, World};
+use flat_physics::geometry::Outline;
+use flat_physics::query::Filter;
+use flat_physics::{BodyView, Collider, Error, Footing, Handle, Phase, Scalar, SlideOptions, Vec2, World};
 
-use crate::control::{Control, Noticed, Notices, Walker};
+use crate::control::{Control, Noticed, Notices, TilesMet, Walker};
 use crate::parameters::Parameters;
 use crate::scene::Scene;
 use crate::script::Memory;
@@ -20,8 +22,16 @@ pub(crate) struct Hand<'h, 'w, S: Scalar> {
 
 impl<'w, S: Scalar> Hand<'_, 'w, S> {
     /// The body of that number: its user data says so.
-    fn find(&self, number: u16) -> Option<Handle> {
-        self.world.bodies().find(|body| body.user_data == u32::from(number)).map(|body| body.handle)
+    fn view(&self, number: u16) -> Option<BodyView<S>> {
+        self.world.bodies().find(|body| body.user_data == u32::from(number))
+    }
+
+    /// What the last step told of a body.
+    fn events(&self, number: u16) -> impl Iterator<Item = (Phase, Collider)> {
+        let handle = self.view(number).map(|body| body.handle);
+        let told =
+            handle.map(|handle| self.world.events().filter_map(move |event| Some((event.phase, event.of(handle)?))));
+        told.into_iter().flatten()
     }
 
     /// Does something to a body, if it is there.
@@ -30,7 +40,7 @@ impl<'w, S: Scalar> Hand<'_, 'w, S> {
         number: u16,
         act: impl FnOnce(&mut World<'w, S>, Handle) -> Result<T, Error<S>>,
     ) -> Option<T> {
-        let handle = self.find(number)?;
+        let handle = self.view(number)?.handle;
         let outcome = act(self.world, handle);
         self.note(outcome)
     }
@@ -59,8 +69,45 @@ impl<'w, S: Scalar> Hand<'_, 'w, S> {
 impl<S: Scalar> Control for Hand<'_, '_, S> {
     fn position(&self, number: u16) -> Vec2<I16F16> {
         let variant = &self.parameters.variant;
-        let position = self.find(number).and_then(|handle| self.world.body(handle).ok()).map(|body| body.position);
-        position.map_or(Vec2::default(), |position| variant.turn_back(position.map(fixed::<S>) - variant.origin()))
+        self.view(number)
+            .map_or(Vec2::default(), |body| variant.turn_back(body.position.map(fixed::<S>) - variant.origin()))
+    }
+
+    fn velocity(&self, number: u16) -> Vec2<I16F16> {
+        let velocity = self.view(number).map(|body| body.velocity.map(|speed| fixed::<S>(S::px_per_second(speed))));
+        self.parameters.variant.turn_back(velocity.unwrap_or_default())
+    }
+
+    fn sees(&self, number: u16, way: Vec2<I16F16>) -> bool {
+        let Some(body) = self.view(number) else {
+            return false;
+        };
+        let filter = Filter { except: Some(body.handle), ..Filter::default() };
+        self.world.ray(body.position, self.turned(way), filter).is_ok_and(|met| met.is_some())
+    }
+
+    fn is_anything_at(&self, point: Vec2<I16F16>) -> bool {
+        self.world.at_point(self.placed(point), Filter::default()).is_ok_and(|mut found| found.next().is_some())
+    }
+
+    fn is_anyone_in(&self, centre: Vec2<I16F16>, half: Vec2<I16F16>, layers: u16) -> bool {
+        let variant = &self.parameters.variant;
+        let half = variant.turn(half).map(|extent| S::real(extent.abs()));
+        let area = Outline { centre: self.placed(centre), half, circle: false };
+        let filter = Filter { mask: layers, tiles: false, ..Filter::default() };
+        self.world.overlapping(area, filter).is_ok_and(|mut found| found.next().is_some())
+    }
+
+    fn count_events(&self, number: u16, phase: Phase) -> u16 {
+        self.events(number).filter(|(told, _)| *told == phase).count() as u16
+    }
+
+    fn tiles_met(&self, number: u16) -> TilesMet {
+        let met = self.events(number).filter_map(|(phase, other)| match other {
+            Collider::Tile(tile) if phase != Phase::End => Some(tile),
+            Collider::Tile(_) | Collider::Body(_) => None,
+        });
+        met.take(TilesMet::new().capacity()).collect()
     }
 
     fn set_velocity(&mut self, number: u16, velocity: Vec2<I16F16>) {
@@ -88,6 +135,10 @@ impl<S: Scalar> Control for Hand<'_, '_, S> {
     fn set_tile(&mut self, column: u16, row: u16, active: bool) -> bool {
         let changed = self.world.set_tile_active(column, row, active);
         self.note(changed).unwrap_or(false)
+    }
+
+    fn drop_through(&mut self, number: u16) {
+        self.with(number, World::drop_through);
     }
 
     fn walker(&self) -> Walker {

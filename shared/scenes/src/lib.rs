@@ -69,6 +69,10 @@ pub static SCENES: &[Scene] = &[
     catalogue::tile_level::SEAMS,
     catalogue::tile_shots::SCENE,
     catalogue::platformer::SCENE,
+    catalogue::ledges::SCENE,
+    catalogue::tripwires::SCENE,
+    catalogue::patrol::SCENE,
+    catalogue::crumble::SCENE,
 ];
 
 /// The scene of that name.

@@ -155,4 +155,15 @@ pub enum Promise {
         /// Depth.
         at_most: I16F16,
     },
+    /// A body's centre stays inside this rectangle, at every step.
+    Stays {
+        /// The body's number.
+        body: u16,
+        /// Upper left corner.
+        min: Vec2<I16F16>,
+        /// Lower right corner.
+        max: Vec2<I16F16>,
+        /// How far outside is still inside.
+        tolerance: I16F16,
+    },
 }
