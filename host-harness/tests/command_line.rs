@@ -68,6 +68,31 @@ fn two_mocks_agree_and_a_flipped_one_does_not() {
     assert_eq!(again.status.code(), Some(1), "{rerun}");
 }
 
+#[test]
+fn what_a_player_does_counts_from_the_same_steps_wherever_it_is_played() {
+    let digest = |arguments: &[&str]| {
+        let output = rig(&[&["run", "platformer", "--steps", "597", "--target", "mock,mock"], arguments].concat());
+        let told = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        let digests: Vec<_> = told.split("digest ").skip(1).map(|rest| rest[..16].to_owned()).collect();
+        assert!(digests.len() == 2 && digests[0] == digests[1], "{told}");
+        digests[0].clone()
+    };
+    let platformer = flat_scenes::find("platformer").expect("a scene with a player");
+    let demo = flat_rig::input::Inputs::new(&platformer.demo.expect("a demo").holds[..11]).to_string();
+    assert_eq!(digest(&[]), digest(&["--input", &demo]), "the first part of what it plays by itself");
+    assert_ne!(digest(&[]), digest(&["--input", "right:50"]));
+
+    // Where two targets part is found by running both again, inputs and all.
+    let flip =
+        ["run", "platformer", "--input", "right:50 jump+right:20", "--target", "mock,mock", "--flip", "60:1:2:9"];
+    let told = text(&rig(&flip).stdout);
+    for words in ["step 60, after stage integrate_velocity", "velocity.x of body 2", "--input 'right:50 right+jump:20'"]
+    {
+        assert!(told.contains(words), "`{words}` is missing in:\n{told}");
+    }
+}
+
 #[cfg(unix)]
 mod children {
     use std::process::{Child, Stdio};
