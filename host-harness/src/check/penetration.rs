@@ -1,4 +1,4 @@
-//! Nobody sinks in: the depth of every overlap, all pairs against all, straight from the shapes.
+//! Nobody sinks in: the depth of every overlap of any two, straight from the shapes.
 
 use fixed::types::I16F16;
 
@@ -27,12 +27,25 @@ impl Check for Penetration {
         if step < self.from_step {
             return;
         }
-        for (slot, a) in bodies.iter().enumerate() {
-            for (other, b) in bodies.iter().enumerate().skip(slot + 1) {
-                if (a.moves || b.moves) && a.present && b.present && a.solid && b.solid {
-                    let depth = overlap(a, b).max(0.0);
-                    self.deepest.take(step, depth, || format!("between bodies {slot} and {other}"));
-                }
+        let edges = |body: &Body| {
+            let (x, half) = (body.position[0], body.half_extent()[0]);
+            // Not a number is near everything, and too deep in it.
+            if x.is_nan() { [f64::NEG_INFINITY, f64::INFINITY] } else { [x - half, x + half] }
+        };
+        let mut sorted: Vec<_> = (0..).zip(bodies).filter(|(_, body)| body.present && body.solid).collect();
+        sorted.sort_by(|(_, a), (_, b)| edges(a)[0].total_cmp(&edges(b)[0]));
+        let moving = sorted.iter().filter(|(_, body)| body.moves).count();
+        if moving > 0 && sorted.len() > 1 {
+            self.deepest.take(step, 0.0, || "anywhere".into());
+        }
+        for (place, (slot, a)) in sorted.iter().enumerate() {
+            // Whoever begins to the right of where `a` ends is apart from it.
+            let near = sorted[place + 1..].iter().take_while(|(_, b)| edges(b)[0] <= edges(a)[1]);
+            for (other, b) in near.filter(|(_, b)| a.moves || b.moves) {
+                let depth = overlap(a, b);
+                let depth = if depth < 0.0 { 0.0 } else { depth };
+                let [first, second]: [usize; 2] = if slot < other { [*slot, *other] } else { [*other, *slot] };
+                self.deepest.take(step, depth, || format!("between bodies {first} and {second}"));
             }
         }
     }
@@ -66,6 +79,27 @@ pub(super) fn overlap(a: &Body, b: &Body) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::Outcome;
+
+    #[test]
+    fn any_pair_counts_that_can_move_wherever_it_lies() {
+        let found = |bodies: &[Body]| {
+            let mut check = Penetration::new(1, I16F16::ZERO);
+            check.observe(&State { step: 1, bodies, contacts: &[] });
+            let finding = check.finding();
+            (finding.outcome, finding.measured, finding.got)
+        };
+        let wall = Body { moves: false, ..square(0.0, 0.0, 50.0) };
+        let (apart, inside) = (circle(60.0, 0.0, 5.0), circle(53.0, 40.0, 5.0));
+        let (outcome, measured, got) = found(&[apart, inside, wall]);
+        assert_eq!((outcome, measured), (Outcome::Failed, Some(2.0)));
+        assert!(got.contains("between bodies 1 and 2"), "{got}");
+        assert_eq!(found(&[apart, wall]).0, Outcome::Held);
+        assert_eq!(found(&[wall, wall]).0, Outcome::Untested);
+        assert_eq!(found(&[apart]).0, Outcome::Untested);
+        let nowhere = circle(f64::NAN, 0.0, 5.0);
+        assert_eq!(found(&[apart, nowhere]).0, Outcome::Failed);
+    }
 
     fn circle(x: f64, y: f64, radius: f64) -> Body {
         Body::at([x, y], Extent::Circle { radius })
