@@ -10,10 +10,8 @@ pub(crate) const NAME: &str = "esp32";
 
 // Less than on the ESP32-C3: 192 KiB of data memory are in one piece.
 pub(crate) const OUTBOX_BYTES: usize = 8 * 1024;
-pub(crate) const ROOM: Room = Room {
-    fixed: Capacity { bodies: 512, contacts: 1536 },
-    f32: Capacity { bodies: 128, contacts: 768 },
-};
+pub(crate) const ROOM: Room =
+    Room { fixed: Capacity { bodies: 512, contacts: 1536 }, f32: Capacity { bodies: 128, contacts: 768 } };
 
 /// Times stages in CPU cycles; wraps after 17.9 s.
 pub(crate) struct StageCounter(());

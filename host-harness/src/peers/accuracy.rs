@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use flat_rig::check::{Finding, Outcome};
-use flat_scenes::{Promise, Scene};
+use flat_scenes::{Player, Promise, Scene};
 
 use super::oracle::{Engine, Oracle};
 use crate::cli::ScalarArg;
@@ -88,7 +88,7 @@ pub fn measure(
         let foreign = job(ScalarArg::F32)?;
         let box2d = oracle.findings(Engine::BOX2D, &foreign)?;
         let rapier = oracle.findings(Engine::RAPIER, &foreign)?;
-        let promises = scene.promises(&foreign.parameters);
+        let promises = scene.promises(&foreign.parameters, Player::Demo);
         let mut first = true;
         for (index, (promise, finding)) in promises.iter().zip(ours.iter().flatten()).enumerate() {
             let cell = |findings: &[Option<Finding>]| Cell::of(findings.get(index).and_then(Option::as_ref));

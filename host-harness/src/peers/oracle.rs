@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use flat_rig::check::{Checks, Finding};
-use flat_scenes::{Parameters, Promise};
+use flat_scenes::{Parameters, Player, Promise};
 use flat_wire::message::{BodyState, ScalarKind};
 
 use crate::error::Error;
@@ -69,7 +69,7 @@ impl Oracle {
         let Job { scene, parameters, steps, .. } = job;
         let output = Self::call(Command::new(&self.path), "states", engine, job)?;
         // Both peers compute in binary32.
-        let mut checks = Checks::new(scene, parameters, ScalarKind::F32);
+        let mut checks = Checks::new(scene, parameters, ScalarKind::F32, Player::Demo);
         let mut seen = 0;
         for (step, line) in (1..).zip(output.stdout.lines()) {
             let bodies = states(line).ok_or_else(|| Error::target(format!("{NAME}: line {step} is no state"), ""))?;
@@ -79,7 +79,7 @@ impl Oracle {
         if seen != *steps {
             return Err(Error::target(format!("{NAME} ended after {seen} of {steps} steps"), ""));
         }
-        let promises = scene.promises(parameters);
+        let promises = scene.promises(parameters, Player::Demo);
         Ok(promises
             .iter()
             .zip(checks.findings())

@@ -1,6 +1,6 @@
 //! Comparisons as a page: for each scene the answer, error against cost, the table, and how energy and overlap went.
 
-use flat_scenes::{Order, Promise};
+use flat_scenes::{Order, Player, Promise};
 
 use super::Context;
 use super::findings::{Candidate, Comparison, LEAST, figure};
@@ -71,7 +71,7 @@ fn scene(page: &mut Page, comparison: &Comparison, context: &Context) {
     let about_overlap = |promise: &Promise| matches!(promise, Promise::Penetration { .. });
     let overlaps = scene
         .parameters(Some(comparison.bodies), None, Order::Forward)
-        .is_ok_and(|parameters| scene.promises(&parameters).iter().any(about_overlap));
+        .is_ok_and(|parameters| scene.promises(&parameters, Player::Demo).iter().any(about_overlap));
     if overlaps
         && let Some(plot) = over_time(comparison, "Deepest overlap over time", "deepest overlap, px", |candidate| {
             candidate.evaluation.accuracy.series.overlap.clone()

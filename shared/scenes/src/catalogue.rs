@@ -26,8 +26,8 @@ pub(crate) mod terminal;
 pub(crate) mod tight;
 pub(crate) mod tile_level;
 pub(crate) mod tile_shots;
-pub(crate) mod vice;
 pub(crate) mod tripwires;
+pub(crate) mod vice;
 
 use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};

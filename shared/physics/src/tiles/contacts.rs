@@ -101,7 +101,8 @@ impl TileMap<'_> {
         if !meets_face && is_solid(between) {
             let probe = Probe::near(outline, margin);
             let offset = vec2(if to_left { -left } else { right }, if up { -top } else { bottom });
-            if let Some(corner) = self.circle_on_corner(&probe, Tile::new(next, over, between), offset, level, upright) {
+            if let Some(corner) = self.circle_on_corner(&probe, Tile::new(next, over, between), offset, level, upright)
+            {
                 visit(corner.contact);
             }
         }

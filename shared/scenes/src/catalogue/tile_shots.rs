@@ -6,10 +6,11 @@ use flat_physics::tiles::TileFlags;
 use flat_physics::{BodyDef, Effects, Fixed, vec2};
 
 use super::{COMMON, at, body, bouncy, circle, square, usual};
+use crate::control::Control;
 use crate::parameters::{Parameters, Takes, Turns};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
-use crate::script::{Control, Cue};
+use crate::script::Moment;
 use crate::tiles::Tiles;
 
 const COLUMNS: usize = 64;
@@ -73,12 +74,12 @@ fn shot(parameters: &Parameters, number: u16, volley: u32) -> BodyDef<Fixed> {
 }
 
 /// Puts everything back and shoots again.
-fn reload(parameters: &Parameters, cue: Cue, control: &mut dyn Control) {
-    if cue.step % VOLLEY != 1 {
+fn reload(parameters: &Parameters, moment: Moment, control: &mut dyn Control) {
+    if moment.step % VOLLEY != 1 {
         return;
     }
     for number in 0..parameters.bodies {
-        let def = shot(parameters, number, cue.step / VOLLEY);
+        let def = shot(parameters, number, moment.step / VOLLEY);
         control.set_position(number, def.position);
         control.set_velocity(number, def.velocity);
     }
