@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use fixed::types::I16F16;
 use flat_physics::scalar::px;
-use flat_physics::{BodyDef, Effects, Fixed, Handle, Kind, Shape, Stage, Storage, World, vec2};
+use flat_physics::{BodyDef, Effects, Fixed, Handle, Kind, Material, Shape, Stage, Storage, World, step, vec2};
 use proptest::prelude::*;
 
 type Pair = (u16, u16);
@@ -220,5 +220,28 @@ fn contacts_beyond_the_pool_are_counted_and_the_rest_is_kept() {
         Stage::Events.run(&mut world, Effects::NONE);
         let statistics = world.statistics();
         assert_eq!((statistics.contacts, statistics.contacts_peak, statistics.contacts_lost), (3, 3, 2 * steps));
+    }
+}
+
+#[test]
+fn in_a_pool_that_is_too_small_what_bears_others_stays() {
+    // Columns of crates side by side, with a contact downwards for each, and as many sideways as there is no room for.
+    let mut storage = Storage::<Fixed, 64, 34>::new();
+    let mut world = storage.world();
+    let material = Material { bounce: false, ..Material::DEFAULT };
+    world
+        .spawn(&BodyDef { material, ..BodyDef::fixed(Shape::Box { half: vec2(px(200), px(8)) }, vec2(px(60), px(8))) })
+        .unwrap();
+    for (column, level) in (0..16).flat_map(|column| [(column, 0), (column, 1)]) {
+        let place = vec2(px(10 * column), px(-5 - 10 * level));
+        world.spawn(&BodyDef { material, ..BodyDef::rigid(Shape::Box { half: vec2(px(5), px(5)) }, place) }).unwrap();
+    }
+    for _ in 0..120 {
+        step(&mut world, Effects::GRAVITY);
+    }
+    assert!(world.statistics().contacts_lost > 0);
+    for body in world.bodies().skip(1) {
+        let level = if body.position.y < px(-10) { -15.0 } else { -5.0 };
+        assert!((body.position.y.to_num::<f64>() - level).abs() < 0.02, "{:?}", body.position);
     }
 }

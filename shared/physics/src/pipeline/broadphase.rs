@@ -17,7 +17,7 @@ use super::terrain;
 use crate::body::{Body, Marks, Profile};
 use crate::contact::Flags;
 use crate::effects::{Effects, Switches};
-use crate::scalar::{Quantity, Scalar, px};
+use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::tiles::TileMap;
 use crate::vec2::Vec2;
 use crate::world::World;
@@ -208,7 +208,25 @@ fn fastest<S: Scalar>(world: &World<'_, S>) -> S::Speed {
     speeds.fold(S::Speed::ZERO, integrate::larger)
 }
 
+/// Finds all pairs that there is room for. If there isn't room for all, those that bear somebody come first.
 fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    search(world, switches, Wanted::All);
+    if world.pool.missing > 0 {
+        search(world, switches, Wanted::Bearing);
+        search(world, switches, Wanted::All);
+    }
+}
+
+/// Which pairs a search keeps and adds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    All,
+    /// A body and what it is about to touch below it, or what is immovable.
+    Bearing,
+}
+
+#[inline(never)]
+fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: Wanted) {
     let sensors = switches.on(Effects::SENSORS);
     let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
     let terrain = world.terrain;
@@ -226,9 +244,9 @@ fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
         *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
     }
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
-    let dynamics = &order[..*dynamic_count];
+    let (dynamics, ground) = (&order[..*dynamic_count], *ground);
     let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
-    let mut sweep = Sweep::new(links, dynamics, bodies, *ground);
+    let mut sweep = Sweep::new(links, dynamics, bodies, ground);
     for (rank, &slot) in dynamics.iter().enumerate() {
         let body = &bodies[usize::from(slot)];
         if !body.status.collides() {
@@ -236,7 +254,8 @@ fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
         }
         let near = Near::new(body);
         let mut note = |upper: u16, lower: u16| {
-            if meet(upper, lower, bodies, profiles, sensors) {
+            let is_wanted = wanted == Wanted::All || may_bear(upper, lower, bodies, ground);
+            if is_wanted && meet(upper, lower, bodies, profiles, sensors) {
                 update.note(upper, lower, bodies, profiles);
             }
         };
@@ -254,7 +273,7 @@ fn find_pairs<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
             look_for_tiles(slot, terrain, body, &mut update, tiles, profiles);
         }
     }
-    update.finish(dynamics, links, bodies, profiles, *ground, tell_ends);
+    update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
 }
 
 /// Makes room for what a body may touch of the tile map before it has moved by a skin, or in this step at its speed.
@@ -310,6 +329,20 @@ impl<S: Scalar> Near<S> {
         let speed = self.velocity.map(|v| S::in_a_step(v).abs());
         Bounds::around(self.centre, self.reach + speed)
     }
+}
+
+/// Whether a body may be borne by another: one that is immovable, or that lies rather below than beside it; and they are as good as
+/// in touch.
+#[cold]
+fn may_bear<S: Scalar>(upper: u16, lower: u16, bodies: &[Body<S>], ground: Ground) -> bool {
+    let (a, b) = (&bodies[usize::from(upper)], &bodies[usize::from(lower)]);
+    let (offset, reach) = (b.position - a.position, a.half + b.half);
+    let gap = offset.map(Quantity::abs) - reach;
+    let speed = a.velocity.saturating_sub(b.velocity).map(|v| S::in_a_step(v).abs());
+    let margin = S::real(ratio(1, 4)) + speed.x.greater(speed.y);
+    let is_firm = !a.status.is_rigid() || !b.status.is_rigid();
+    let (aside, away) = if ground.is_horizontal() { (gap.y, gap.x) } else { (gap.x, gap.y) };
+    aside <= margin && away <= margin && (is_firm || aside <= away)
 }
 
 /// Whether anything happens when two bodies touch.
