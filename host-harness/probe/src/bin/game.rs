@@ -1,4 +1,5 @@
-//! The smallest game: a box on a floor. What it takes is what the engine takes, with the effects that it is built for.
+//! The smallest game: a box on a floor. What it takes is what the engine takes, with the effects that it is built for, at level
+//! Grounded.
 #![no_std]
 #![no_main]
 #![deny(clippy::undocumented_unsafe_blocks)]
@@ -6,7 +7,7 @@
 use core::hint::black_box;
 
 use flat_physics::scalar::px;
-use flat_physics::{BodyDef, Error, Fixed, Only, Shape, Storage, step, vec2};
+use flat_physics::{BodyDef, Error, Fixed, Level, Only, Shape, Storage, step, vec2};
 use flat_probe::{EFFECTS, FAIL, MARK, call, end};
 
 /// `FLAT_PROBE_EFFECTS`; a game without any otherwise.
@@ -36,7 +37,7 @@ fn play() -> Result<(), Error<Fixed>> {
     world.spawn(&BodyDef::fixed(half(100, 8), vec2(px(0), px(108))))?;
     let body = world.spawn(&BodyDef::rigid(half(8, 8), vec2(px(0), px(0))))?;
     loop {
-        step(&mut world, Only::<CHOSEN>);
+        step(&mut world, Only::<CHOSEN, { Level::Grounded as u8 }>);
         let at = world.body(body)?.position;
         call(MARK, [at.x.to_bits().cast_unsigned(), at.y.to_bits().cast_unsigned()]);
     }

@@ -10,10 +10,11 @@ use flat_scenes::{Cue, Memory, Order, SCENES};
 
 const BODIES: usize = 1024;
 const CONTACTS: usize = 8192;
+const TILES: usize = 4096;
 
-static mut FIXED: Storage<Fixed, BODIES, CONTACTS> = Storage::new();
-static mut F32: Storage<f32, BODIES, CONTACTS> = Storage::new();
-static mut F64: Storage<f64, BODIES, CONTACTS> = Storage::new();
+static mut FIXED: Storage<Fixed, BODIES, CONTACTS, TILES> = Storage::new();
+static mut F32: Storage<f32, BODIES, CONTACTS, TILES> = Storage::new();
+static mut F64: Storage<f64, BODIES, CONTACTS, TILES> = Storage::new();
 
 /// What to run, as rig passes it.
 #[derive(Clone, Copy)]
