@@ -29,10 +29,16 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
         let mut changed = false;
         for_each_live(world, |contact, a, b| changed |= visit(contact, a, b, friction));
         if !changed {
-            break; // nor would the next
+            break; // what is left is for the next step
         }
     }
     shock(world);
+}
+
+/// The resolution of fixed-point positions, in a step.
+#[inline]
+fn resolution<S: Scalar>() -> S::Speed {
+    S::per_step(S::real(I16F16::DELTA))
 }
 
 /// Calls a function for every live contact, with the velocities of its bodies.
@@ -174,7 +180,7 @@ fn hand<S: Scalar>(
     pushed_apart_widely(contact, vec2(change, zero), a, b)
 }
 
-/// Changes the velocities as a contact calls for; whether it did.
+/// Changes the velocities as a contact calls for; whether so much that positions may show it.
 #[inline(always)] // into the loop over contacts
 fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Vec2<S::Speed>, friction: bool) -> bool {
     let zero = S::Speed::ZERO;
@@ -204,7 +210,7 @@ fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Ve
     }
     contact.impulse = vec2(along_normal, along_tangent);
     (*a, *b) = pushed_apart(contact, change, *a, *b);
-    true
+    !change.x.is_within(resolution::<S>())
 }
 
 /// Tame velocities after a tame change of their difference, each by its share.
@@ -284,8 +290,8 @@ fn pushed_apart_widely<S: Scalar>(
 fn shock<S: Scalar>(world: &mut World<'_, S>) {
     let ground = world.layers.ground();
     let (zero, graze) = (S::Speed::ZERO, S::per_step(S::real(GRAZE)));
-    // What parts more slowly than by the resolution of positions in a step hasn't parted.
-    let adrift = S::per_step(S::real(I16F16::DELTA));
+    // What parts so slowly hasn't parted.
+    let adrift = resolution::<S>();
     let World { pool, bodies, .. } = world;
     let mut upper = NONE;
     let (mut a, mut marks) = (Vec2::default(), Marks::default());

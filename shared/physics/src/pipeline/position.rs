@@ -16,7 +16,7 @@ use crate::pipeline::order::Ground;
 use crate::scalar::{Quantity, Scalar, px};
 use crate::world::World;
 
-/// Most that one contact parts bodies by in a step, px: many in one place don't throw each other over a wall.
+/// Most that one contact parts two movable bodies by in a step, px: many in one place don't throw each other over a wall.
 const MOST: I16F16 = px(1);
 
 /// One pass over all contacts.
@@ -47,7 +47,8 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
         if bears && a.marks.has(Marks::GROUNDED) && (!b.status.is_rigid() || b.marks.has(Marks::GROUNDED)) {
             lift(contact, correction, world.bodies, ground);
         } else {
-            part(contact, if flat { correction } else { correction.lesser(most) }, world.bodies, ground);
+            let whole = flat || contact.flags.has(Flags::IMMOVABLE);
+            part(contact, if whole { correction } else { correction.lesser(most) }, world.bodies, ground);
         }
     }
 }
