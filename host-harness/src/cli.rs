@@ -74,7 +74,7 @@ pub enum Command {
     Build {
         /// The board.
         #[arg(value_enum)]
-        board: BoardArg,
+        board: Board,
 
         /// What for.
         #[command(flatten)]
@@ -234,25 +234,6 @@ fn flip(text: &str) -> Result<Flip, String> {
     let body = body.parse().map_err(|_| "BODY must be a slot, 0 to 65535")?;
     let bit = bit.parse().map_err(|_| "BIT must be a number from 0")?;
     Ok(Flip { point: Point { step, stage: stage.index() as u8 }, body, bit })
-}
-
-/// A board whose image rig builds. The ESP32 takes Espressif's compiler: see the firmware's manifest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub enum BoardArg {
-    /// QEMU's `virt` machine with an rv32imc core.
-    QemuVirt,
-    /// ESP32-C3.
-    Esp32c3,
-}
-
-impl From<BoardArg> for Board {
-    fn from(board: BoardArg) -> Self {
-        match board {
-            BoardArg::QemuVirt => Self::QemuVirt,
-            BoardArg::Esp32c3 => Self::Esp32c3,
-        }
-    }
 }
 
 /// `--order`.

@@ -59,7 +59,7 @@ fn main() -> ExitCode {
         Command::Faults(arguments) => trials::faults::run(&arguments),
         Command::Test(arguments) => trials::unit_tests::run(&arguments),
         Command::Build { board, kind } => {
-            println!("{}", firmware::image::build_as(board.into(), kind)?.display());
+            println!("{}", firmware::image::build_as(board, kind)?.display());
             Ok(true)
         }
     });

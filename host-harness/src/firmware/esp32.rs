@@ -15,12 +15,13 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::image::{self, Board};
+use super::image::{self, Board, Build};
 use super::toolchain::Compiler;
 use super::{subprocess, toolchain, workspace};
 use crate::error::Error;
 
-const TARGET: &str = "xtensa-esp32-none-elf";
+/// The target of the board.
+pub const XTENSA_TARGET: &str = "xtensa-esp32-none-elf";
 /// Crates with naked functions for Xtensa.
 const NAKED: [&str; 2] = ["esp-hal", "esp-rtos"];
 /// The attribute that the copies go without.
@@ -46,7 +47,7 @@ pub enum Outcome {
 /// If the firmware is wrong, or the copies can no longer be made as described above.
 pub fn check() -> Result<Outcome, Error> {
     if has_espup() {
-        return build().map(Outcome::Built);
+        return image::build(Board::Esp32).map(Outcome::Built);
     }
     let Some((compiler, library)) = Compiler::with_library_source() else {
         return Ok(Outcome::Skipped(
@@ -55,26 +56,11 @@ pub fn check() -> Result<Outcome, Error> {
                 .into(),
         ));
     };
-    type_check(&compiler, &library, &["--bins", "--examples"])?;
-    // Its unit tests take the place of the product's tasks.
-    for features in ["tests", "second-core"] {
-        type_check(&compiler, &library, &["--features", features])?;
+    type_check(&compiler, &library, Build { second_core: true, ..Build::PRODUCT })?;
+    for kind in [Build::PRODUCT, Build::BARE, Build::TESTS] {
+        type_check(&compiler, &library, kind)?;
     }
     Ok(Outcome::TypeChecked { release: compiler.release })
-}
-
-/// Builds the ESP32's firmware.
-///
-/// # Errors
-/// If espup's toolchain isn't there, or the firmware doesn't compile.
-pub fn build_image() -> Result<PathBuf, Error> {
-    if has_espup() {
-        return build();
-    }
-    Err(Error::target(
-        "no compiler for the ESP32: its Xtensa core takes Espressif's",
-        "`cargo install espup --locked && espup install`, and what that prints; docs/boards.md has the steps",
-    ))
 }
 
 fn has_espup() -> bool {
@@ -86,33 +72,40 @@ fn has_espup() -> bool {
             .is_ok_and(|output| output.status.success())
 }
 
-fn build() -> Result<PathBuf, Error> {
-    let target_dir = workspace::target_dir()?.join("firmware");
+/// A call of a cargo subcommand with espup's toolchain.
+///
+/// # Errors
+/// If that toolchain isn't there; the error says how to get it.
+pub fn cargo(subcommand: &str) -> Result<Command, Error> {
+    if !has_espup() {
+        return Err(Error::target(
+            "no compiler for the ESP32: its Xtensa core takes Espressif's",
+            "`firmware/esp32.sh`, which installs it; docs/boards.md has the steps one by one",
+        ));
+    }
     let mut cargo = Command::new("rustup");
-    cargo.current_dir(workspace::root()?).args(["run", "esp", "cargo", "build", "--target", TARGET]);
-    cargo.args(["-Zbuild-std=core,alloc", "--target-dir"]).arg(&target_dir);
+    cargo.current_dir(workspace::root()?).args(["run", "esp", "cargo", subcommand, "--target", XTENSA_TARGET]);
+    cargo.args(["-Zbuild-std=core,alloc", "--target-dir"]).arg(workspace::target_dir()?.join("firmware"));
     workspace::clear_cargo_run(&mut cargo);
     // The outer cargo's own choices, which would win over `rustup run`.
     cargo.env_remove("RUSTC").env_remove("RUSTUP_TOOLCHAIN");
-    image::choose(Board::Esp32, &mut cargo)?;
-    subprocess::run("building the esp32 firmware", &mut cargo)?;
-    Ok(target_dir.join(TARGET).join("firmware/flat-firmware"))
+    Ok(cargo)
 }
 
-fn type_check(compiler: &Compiler, library: &Path, arguments: &[&str]) -> Result<(), Error> {
+fn type_check(compiler: &Compiler, library: &Path, kind: Build) -> Result<(), Error> {
     let directory = workspace::target_dir()?.join("esp32-check");
     let crates = locate_crates()?;
     let copies = Copies { library: directory.join("library"), crates: directory.join("crates") };
     copies.refresh(&directory.join("made-of"), compiler, library, &crates)?;
 
     let mut cargo = workspace::cargo()?;
-    cargo.args(["check", "--locked", "--target", TARGET, "--target-dir"]).arg(directory.join("build"));
+    cargo.args(["check", "--locked", "--target", XTENSA_TARGET, "--target-dir"]).arg(directory.join("build"));
     cargo.args(["-Zbuild-std=core,alloc", "--config"]).arg(copies.override_paths());
     compiler.lend_to(&mut cargo);
     cargo.env("__CARGO_TESTS_ONLY_SRC_ROOT", &copies.library);
     cargo.env_remove("CARGO_ENCODED_RUSTFLAGS").env("RUSTFLAGS", "-Zno-codegen -Dwarnings");
-    image::choose(Board::Esp32, &mut cargo)?;
-    cargo.args(arguments);
+    image::choose(Board::Esp32, kind, &mut cargo)?;
+    cargo.args(["--bins", "--examples"]);
     subprocess::run("type-checking the esp32 firmware", &mut cargo).map(drop)
 }
 

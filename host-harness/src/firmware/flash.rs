@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::elf::Image;
 use super::image::{self, Board, Build};
 use super::references::FLASH_CODE;
-use super::{esp32, subprocess, toolchain};
+use super::{subprocess, toolchain};
 use crate::error::Error;
 use crate::monitor;
 use crate::target::{Target, ports};
@@ -21,7 +21,7 @@ const ESPFLASH: &str = "espflash";
 pub struct FlashArgs {
     /// The board.
     #[arg(value_enum)]
-    board: ChipArg,
+    board: Board,
 
     /// The board's serial port [default: that of the one board there is]
     #[arg(long, value_name = "PATH")]
@@ -48,41 +48,16 @@ pub struct FlashArgs {
     print: bool,
 }
 
-/// A board that can be flashed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ChipArg {
-    /// ESP32-C3.
-    Esp32c3,
-    /// ESP32.
-    Esp32,
-}
-
-impl From<ChipArg> for Board {
-    fn from(chip: ChipArg) -> Self {
-        match chip {
-            ChipArg::Esp32c3 => Self::Esp32c3,
-            ChipArg::Esp32 => Self::Esp32,
-        }
-    }
-}
-
 /// Flashes a board, or says how.
 ///
 /// # Errors
 /// If there is no image, no board or no espflash, or if that fails.
 pub fn run(arguments: &FlashArgs) -> Result<(), Error> {
-    let board = Board::from(arguments.board);
-    let elf = match &arguments.elf {
-        Some(elf) => elf.clone(),
-        None if board == Board::Esp32 && arguments.kind == Build::PRODUCT => esp32::build_image()?,
-        None if board == Board::Esp32 => {
-            return Err(Error::usage(
-                "other images than the product are built for the esp32c3 alone",
-                "leave the options out",
-            ));
-        }
-        None => image::build_as(board, arguments.kind)?,
-    };
+    let board = arguments.board;
+    if board == Board::QemuVirt {
+        return Err(Error::usage(format!("{board} has no flash"), "`cargo rig run --target qemu` runs it"));
+    }
+    let elf = arguments.elf.clone().map_or_else(|| image::build_as(board, arguments.kind), Ok)?;
     check(board, &elf)?;
     if let Some(file) = &arguments.save {
         if arguments.print {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use console::style;
 
 use crate::error::Error;
@@ -19,22 +19,12 @@ const PROBE_RS: &str = "probe-rs";
 #[derive(Debug, Args)]
 pub struct TestArgs {
     /// Where to run them.
-    #[arg(value_enum, default_value_t = TestBoard::QemuVirt)]
-    board: TestBoard,
+    #[arg(value_enum, default_value_t = Board::QemuVirt)]
+    board: Board,
 
     /// Builds and lists them, and runs none
     #[arg(long)]
     list: bool,
-}
-
-/// A board that rig can build tests for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TestBoard {
-    /// QEMU's `virt` machine.
-    #[value(name = "qemu_virt")]
-    QemuVirt,
-    /// ESP32-C3, through a debug probe or its USB-JTAG.
-    Esp32c3,
 }
 
 /// Runs the tests; true if none failed.
@@ -42,10 +32,7 @@ enum TestBoard {
 /// # Errors
 /// If they don't compile, or nothing here can run them.
 pub fn run(arguments: &TestArgs) -> Result<bool, Error> {
-    let board = match arguments.board {
-        TestBoard::QemuVirt => Board::QemuVirt,
-        TestBoard::Esp32c3 => Board::Esp32c3,
-    };
+    let board = arguments.board;
     let elf = image::build_as(board, Build::TESTS)?;
     let tests = suite::list(&elf)?;
     if arguments.list {

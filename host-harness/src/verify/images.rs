@@ -1,13 +1,18 @@
 //! Steps on the firmware and its images.
 
+use std::env;
+
+use serde_json::Value;
+
 use super::step::{Result, Verdict};
+use crate::error::Error;
 use crate::firmware::elf::Image;
 use crate::firmware::esp32::{self, Outcome};
 use crate::firmware::image::{self, Board, Build};
 use crate::firmware::inspect::Inspection;
 use crate::firmware::provision;
-use crate::firmware::subprocess;
-use crate::firmware::toolchain::Toolchain;
+use crate::firmware::toolchain::{RISCV_TARGET, Toolchain};
+use crate::firmware::{subprocess, workspace};
 
 /// Findings that are shown in full before the rest is only counted.
 const SHOWN: usize = 20;
@@ -37,18 +42,13 @@ pub(super) fn lint_esp32c3() -> Result {
     lint(Board::Esp32c3)
 }
 
-/// The product and what shows its use, then what is only built for trials and tests.
+/// The product and what shows its use, then what is built for other ends.
 fn lint(board: Board) -> Result {
-    const CHOICES: [&[&str]; 4] = [
-        &["--bins", "--examples"],
-        &["--features", "provoke,rtt"],
-        &["--features", "tests"],
-        &["--no-default-features"],
-    ];
-    for choice in CHOICES {
+    let trials = Build { rtt: true, ..Build::PROVOKE };
+    for kind in [Build::PRODUCT, trials, Build::TESTS, Build::BARE] {
         let mut clippy = Toolchain::find()?.clippy()?;
-        image::choose(board, &mut clippy)?;
-        clippy.args(choice).args(["--", "-Dwarnings"]);
+        image::choose(board, kind, &mut clippy)?;
+        clippy.args(["--bins", "--examples", "--", "-Dwarnings"]);
         subprocess::run(&format!("clippy on the {board} firmware"), &mut clippy)?;
     }
     Ok(Verdict::Passed("no warnings".into()))
@@ -77,10 +77,27 @@ pub(super) fn elf_esp32c3() -> Result {
 pub(super) fn variants_esp32c3() -> Result {
     image::build_as(Board::Esp32c3, Build { usb: true, ..Build::PRODUCT })?;
     let mut cargo = Toolchain::find()?.cargo("build")?;
-    image::choose(Board::Esp32c3, &mut cargo)?;
-    cargo.args(["--features", "rtt", "--bins", "--examples"]).env("FLAT_BAUD", "115200");
+    image::choose(Board::Esp32c3, Build { rtt: true, ..Build::PRODUCT }, &mut cargo)?;
+    cargo.args(["--bins", "--examples"]).env("FLAT_BAUD", "115200");
     subprocess::run("building the examples, and the firmware with RTT for 115200 baud", &mut cargo)?;
     Ok(Verdict::Passed("usb; rtt at 115200 baud; the examples".into()))
+}
+
+/// The workspace's own commands for people with boards, up to the board itself: its runner only prints what it would do.
+pub(super) fn aliases() -> Result {
+    let toolchain = Toolchain::find()?;
+    let rig = env::current_exe().map_err(|error| Error::target(format!("cannot find rig itself: {error}"), ""))?;
+    let runner = Value::from(vec![&*rig.to_string_lossy(), "flash", "esp32c3", "--print", "--elf"]);
+    for alias in ["build-qemu-virt", "flash-esp32c3"] {
+        let mut cargo = toolchain.cargo(alias)?;
+        cargo.env("FLAT_BUILD", workspace::build_id()?);
+        cargo.args(["--config", &format!("target.{RISCV_TARGET}.runner={runner}")]);
+        let said = subprocess::run(&format!("cargo {alias}"), &mut cargo)?;
+        if alias.starts_with("flash") && !said.contains("espflash flash --chip esp32c3 ") {
+            return Ok(Verdict::Failed(format!("cargo {alias} doesn't come to espflash:\n{said}")));
+        }
+    }
+    Ok(Verdict::Passed("build-qemu-virt; flash-esp32c3, up to espflash".into()))
 }
 
 /// Looks for instructions that an rv32imc core traps on, with our decoder and with binutils'.

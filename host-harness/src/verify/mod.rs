@@ -31,7 +31,7 @@ pub struct VerifyArgs {
 }
 
 /// The steps in their order; what finds most mistakes in least time comes first.
-const STEPS: [Step; 29] = [
+const STEPS: [Step; 30] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
@@ -64,6 +64,12 @@ const STEPS: [Step; 29] = [
         "the ESP32-C3's other images, and the examples",
         &["provision"],
         images::variants_esp32c3,
+    ),
+    Step::new(
+        "aliases",
+        "cargo's commands for boards, as far as they go without one",
+        &["build-qemu_virt", "build-esp32c3"],
+        images::aliases,
     ),
     Step::new("esp32", "the ESP32's firmware: a build, or else a type-check", &[], images::esp32),
     Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
