@@ -11,6 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::error::Error;
 use crate::interrupt;
 use crate::process_group;
+use crate::report::progress;
 
 /// How long an interrupted program may take to clean up before it is killed.
 const GRACE: Duration = Duration::from_secs(5);
@@ -102,7 +103,7 @@ pub fn watch_for(title: &str, command: &mut Command, limit: Duration) -> Result<
 }
 
 fn spinner(title: &str) -> ProgressBar {
-    let spinner = ProgressBar::new_spinner().with_prefix(title.to_owned());
+    let spinner = progress::show(ProgressBar::new_spinner().with_prefix(title.to_owned()));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix} {elapsed:.dim} {wide_msg:.dim}") {
         spinner.set_style(style);
     }

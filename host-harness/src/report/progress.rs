@@ -1,8 +1,22 @@
 //! Progress bars on standard error while a target runs; nothing where that isn't a terminal.
 
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+/// All bars, one below the other.
+static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+
+/// Shows a bar among the others.
+pub fn show(bar: ProgressBar) -> ProgressBar {
+    BARS.add(bar)
+}
+
+/// Prints a line, or several, above all bars.
+pub fn say(text: &str) {
+    BARS.suspend(|| println!("{text}"));
+}
 
 /// Whether a bar over many runs is shown, below which those of single runs would only flicker.
 static OVERALL: AtomicBool = AtomicBool::new(false);
@@ -10,7 +24,7 @@ static OVERALL: AtomicBool = AtomicBool::new(false);
 /// A bar over many runs, for the rest of the command.
 pub fn overall(settings: usize) -> ProgressBar {
     OVERALL.store(true, Ordering::Relaxed);
-    let bar = ProgressBar::new(settings as u64);
+    let bar = show(ProgressBar::new(settings as u64));
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}, {eta} left  {msg}") {
         bar.set_style(style);
     }
@@ -27,7 +41,7 @@ impl Progress {
         if OVERALL.load(Ordering::Relaxed) {
             return Self(ProgressBar::hidden());
         }
-        let bar = ProgressBar::new(steps.into());
+        let bar = show(ProgressBar::new(steps.into()));
         if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} step {pos} of {len}, {eta} left") {
             bar.set_style(style);
         }

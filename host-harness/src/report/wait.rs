@@ -5,6 +5,8 @@ use std::time::Duration;
 use flat_wire::Counters;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::progress;
+
 /// The line about one wait; gone when dropped.
 #[derive(Debug)]
 pub struct Wait {
@@ -15,7 +17,7 @@ pub struct Wait {
 impl Wait {
     /// For the answer to the first question; shown once [`Self::show`] is called.
     pub fn for_hello(target: &str) -> Self {
-        let bar = ProgressBar::new_spinner();
+        let bar = progress::show(ProgressBar::new_spinner());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed:.dim}") {
             bar.set_style(style);
         }

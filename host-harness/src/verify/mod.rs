@@ -9,6 +9,9 @@ mod step;
 mod summary;
 mod trials;
 
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use std::time::Instant;
 
 use clap::Args;
@@ -26,17 +29,22 @@ pub struct VerifyArgs {
     list: bool,
 
     /// Does only this step; may be repeated
-    #[arg(long, value_name = "STEP", value_parser = PossibleValuesParser::new(STEPS.map(|step| step.name)))]
+    #[arg(long, value_name = "STEP", value_parser = PossibleValuesParser::new(names()))]
     only: Vec<String>,
 }
 
-/// The steps in their order; what finds most mistakes in least time comes first.
-const STEPS: [Step; 30] = [
-    Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
+/// Steps on the host's own crates, in their order; what finds most mistakes in least time comes first.
+const HOST: [Step; 5] = [
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
     Step::new("test", "unit, property and documentation tests", &[], host::test),
     Step::new("doc", "documentation without warnings", &[], host::doc),
+    Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
+];
+
+/// Steps on the firmware, which go on beside the others: neither needs the other's results, nor cargo's lock on them.
+const FIRMWARE: [Step; 25] = [
+    Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("build-qemu_virt", "the image for QEMU", &["provision"], images::build_qemu_virt),
     Step::new("build-esp32c3", "the image for the ESP32-C3", &["provision"], images::build_esp32c3),
     Step::new("lint-qemu_virt", "clippy on the firmware for QEMU", &["provision"], images::lint_qemu_virt),
@@ -72,7 +80,6 @@ const STEPS: [Step; 30] = [
         images::aliases,
     ),
     Step::new("esp32", "the ESP32's firmware: a build, or else a type-check", &[], images::esp32),
-    Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
     Step::new("scenes-qemu", "the same bits on QEMU, fixed point", &["build-qemu_virt"], scenarios::qemu_fixed),
     Step::new("scenes-qemu-f32", "the same bits on QEMU, binary32", &["build-qemu_virt"], scenarios::qemu_f32),
     Step::new("flip", "one flipped bit on QEMU is noticed and located", &["build-qemu_virt"], scenarios::flip),
@@ -125,13 +132,33 @@ const STEPS: [Step; 30] = [
 /// On Ctrl-C.
 pub fn run(arguments: &VerifyArgs) -> Result<bool, Error> {
     if arguments.list {
-        summary::list(&STEPS);
+        summary::list(&HOST);
+        summary::list(&FIRMWARE);
         return Ok(true);
     }
-    let steps: Vec<_> = STEPS.iter().filter(|step| arguments.chooses(step)).collect();
+    let chosen = |steps: &[Step]| steps.iter().copied().filter(|step| arguments.chooses(step)).collect::<Vec<_>>();
+    let lanes = [chosen(&HOST), chosen(&FIRMWARE)];
+    let count = Count { begun: AtomicUsize::new(0), of: lanes.iter().map(Vec::len).sum() };
+    let lines = thread::scope(|scope| {
+        let running = lanes.each_ref().map(|steps| scope.spawn(|| go_through(steps, &count)));
+        let ended = running.map(|lane| lane.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        ended.into_iter().collect::<Result<Vec<_>, Error>>()
+    })?
+    .concat();
+    summary::table(&lines);
+    Ok(!lines.iter().any(|line| matches!(line.verdict, Verdict::Failed(_))))
+}
+
+/// How many steps were begun so far, and how many there are.
+struct Count {
+    begun: AtomicUsize,
+    of: usize,
+}
+
+fn go_through(steps: &[Step], count: &Count) -> Result<Vec<Line>, Error> {
     let mut lines: Vec<Line> = Vec::new();
-    for (index, step) in steps.iter().enumerate() {
-        summary::announce(index, steps.len(), step);
+    for step in steps {
+        summary::announce(count.begun.fetch_add(1, Ordering::Relaxed) + 1, count.of, step);
         let started = Instant::now();
         let verdict = match missing(step, &lines) {
             Some(needed) => Verdict::Skipped(format!("needs {needed}, which didn't pass")),
@@ -141,14 +168,17 @@ pub fn run(arguments: &VerifyArgs) -> Result<bool, Error> {
         summary::report(&line);
         lines.push(line);
     }
-    summary::table(&lines);
-    Ok(!lines.iter().any(|line| matches!(line.verdict, Verdict::Failed(_))))
+    Ok(lines)
 }
 
 impl VerifyArgs {
     fn chooses(&self, step: &Step) -> bool {
         self.only.is_empty() || self.only.iter().any(|name| name == step.name)
     }
+}
+
+fn names() -> impl Iterator<Item = &'static str> {
+    HOST.iter().chain(&FIRMWARE).map(|step| step.name)
 }
 
 /// A step that this one needs and that was gone through without passing.
@@ -174,9 +204,11 @@ mod tests {
 
     #[test]
     fn steps_need_only_what_comes_before() {
-        for (index, step) in STEPS.iter().enumerate() {
-            for needed in step.needs {
-                assert!(STEPS[..index].iter().any(|before| before.name == *needed), "{} needs {needed}", step.name);
+        for steps in [&HOST[..], &FIRMWARE] {
+            for (index, step) in steps.iter().enumerate() {
+                for needed in step.needs {
+                    assert!(steps[..index].iter().any(|before| before.name == *needed), "{} needs {needed}", step.name);
+                }
             }
         }
     }

@@ -5,6 +5,7 @@ use std::time::Duration;
 use console::style;
 
 use super::step::{Step, Verdict};
+use crate::report::progress;
 
 /// A step that was gone through.
 #[derive(Clone, Debug)]
@@ -38,20 +39,23 @@ pub(super) fn list(steps: &[Step]) {
 }
 
 /// Says which step comes now.
-pub(super) fn announce(index: usize, count: usize, step: &Step) {
-    println!("{} {}: {}", style(format!("[{}/{count}]", index + 1)).dim(), style(step.name).bold(), step.title);
+pub(super) fn announce(number: usize, count: usize, step: &Step) {
+    let place = style(format!("[{number}/{count}]")).dim();
+    progress::say(&format!("{place} {}: {}", style(step.name).bold(), step.title));
 }
 
-/// Says what came of the step just announced, in full.
+/// Says what came of a step, in full and in one piece: another may be under way.
 pub(super) fn report(line: &Line) {
     let mut text = line.text().lines();
-    println!("  {} {:>6.1} s  {}", line.status(), line.duration.as_secs_f64(), text.next().unwrap_or_default());
+    let (status, seconds) = (line.status(), line.duration.as_secs_f64());
+    let mut said = format!("  {status} {:<20} {seconds:>6.1} s  {}", line.step, text.next().unwrap_or_default());
     for more in text {
-        println!("  {more}");
+        said = said + "\n  " + more;
     }
     if matches!(line.verdict, Verdict::Failed(_)) {
-        println!("  rerun: {}", rerun(line.step));
+        said = said + "\n  rerun: " + &rerun(line.step);
     }
+    progress::say(&said);
 }
 
 /// One line for each step, then the counts.
