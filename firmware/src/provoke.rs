@@ -4,7 +4,7 @@ use core::hint::black_box;
 
 use flat_wire::message::Mishap;
 
-use crate::board::machine;
+use crate::board;
 
 /// Messages of a storm.
 const STORM: u32 = 1000;
@@ -23,7 +23,7 @@ pub(crate) fn on_link(mishap: Mishap) {
 pub(crate) fn on_physics(mishap: Mishap) {
     match mishap {
         Mishap::Panic => panic!("provoked, with a message that is long enough to be read by somebody"),
-        Mishap::IllegalInstruction => machine::illegal_instruction(),
+        Mishap::IllegalInstruction => board::illegal_instruction(),
         Mishap::StackOverflow => drop(black_box(descend(0))),
         Mishap::PhysicsHangs => hang(),
         Mishap::LinkHangs | Mishap::Deaf | Mishap::LogStorm => {}

@@ -58,10 +58,3 @@ pub(crate) fn is_code(address: usize) -> bool {
     let ram = (&raw const _trap_section_origin).addr()..(&raw const _rwtext_end).addr();
     flash.contains(&address) || ram.contains(&address)
 }
-
-/// Runs into an instruction that no processor has.
-#[cfg(feature = "provoke")]
-pub(crate) fn illegal_instruction() -> ! {
-    // SAFETY: ends in the exception handler, which doesn't return.
-    unsafe { asm!("unimp", options(noreturn)) }
-}

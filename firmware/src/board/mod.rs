@@ -9,6 +9,7 @@
 //! | `ROOM`            | room for bodies and contacts in each number format            |
 //! | `machine`         | the stack, the code, restart, sending without interrupts      |
 //! | `backtrace`       | the calls that led to here                                    |
+//! | `boot`            | all of that but the tasks, for tests                          |
 //!
 //! Time comes from the board's embassy time driver, in microseconds.
 
@@ -32,10 +33,14 @@ use qemu_virt as this;
 
 #[cfg(feature = "_esp")]
 pub(crate) use esp::{Receiver, Transmitter, machine};
+#[cfg(all(feature = "provoke", feature = "esp32"))]
+pub(crate) use esp32::illegal_instruction;
 #[cfg(feature = "esp32")]
 pub(crate) use esp32::{backtrace, trail_of_interrupted};
 #[cfg(feature = "qemu_virt")]
 pub(crate) use qemu_virt::{Receiver, Transmitter, machine};
+#[cfg(all(feature = "provoke", target_arch = "riscv32"))]
+pub(crate) use riscv::illegal_instruction;
 #[cfg(target_arch = "riscv32")]
 pub(crate) use riscv::{backtrace, trail_of_interrupted};
 #[cfg(feature = "physics")]

@@ -77,6 +77,13 @@ fn return_addresses(stack: usize) -> Vec<u32, BACKTRACE> {
     })
 }
 
+/// Runs into an instruction that no processor has.
+#[cfg(feature = "provoke")]
+pub(crate) fn illegal_instruction() -> ! {
+    // SAFETY: ends in the exception handler, which doesn't return.
+    unsafe { asm!("unimp", options(noreturn)) }
+}
+
 /// The privileged architecture's name of an exception.
 fn name(cause: usize) -> &'static str {
     match cause {

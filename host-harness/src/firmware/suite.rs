@@ -79,3 +79,55 @@ fn read(elf: &[u8]) -> Result<Vec<UnitTest>, String> {
         _ => Err(format!("its tests are in another format: version {version:?}, not {}", VERSION.1)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use object::write::{Object, Symbol, SymbolSection};
+    use object::{Architecture, BinaryFormat, Endianness, SectionKind, SymbolFlags, SymbolKind, SymbolScope};
+
+    use super::*;
+
+    const ONE: &str = r#"{"disambiguator":1,"name":"one","ignored":false,"should_panic":true,"timeout":20}"#;
+    const TWO: &str = r#"{"disambiguator":1,"name":"two","ignored":true,"should_panic":false}"#;
+
+    /// An image with words in its section, each under a name.
+    fn image(words: &[(&str, u32)]) -> Vec<u8> {
+        let mut image = Object::new(BinaryFormat::Elf, Architecture::Riscv32, Endianness::Little);
+        let section = image.add_section(Vec::new(), SECTION.into(), SectionKind::Metadata);
+        for &(name, word) in words {
+            let value = image.append_section_data(section, &word.to_le_bytes(), 4);
+            image.add_symbol(Symbol {
+                name: name.into(),
+                value,
+                size: 4,
+                kind: SymbolKind::Data,
+                scope: SymbolScope::Dynamic,
+                weak: false,
+                section: SymbolSection::Section(section),
+                flags: SymbolFlags::None,
+            });
+        }
+        image.write().unwrap()
+    }
+
+    #[test]
+    fn tests_are_listed_by_name_with_their_entry_points() {
+        let found = read(&image(&[(TWO, 0x8000_0002), (ONE, 0x8000_0001), (VERSION.0, 1)])).unwrap();
+        let test = |name: &str, entry, should_panic, ignored, seconds| UnitTest {
+            name: name.into(),
+            entry,
+            should_panic,
+            ignored,
+            limit: Duration::from_secs(seconds),
+        };
+        assert_eq!(found, [test("one", 0x8000_0001, true, false, 20), test("two", 0x8000_0002, false, true, 60)]);
+    }
+
+    #[test]
+    fn an_image_without_tests_or_with_those_of_another_format_is_refused() {
+        let why = |words: &[(&str, u32)]| read(&image(words)).unwrap_err();
+        assert!(why(&[(VERSION.0, 1)]).contains("no tests"), "{}", why(&[(VERSION.0, 1)]));
+        assert!(why(&[(ONE, 1), (VERSION.0, 2)]).contains("another format"), "{}", why(&[(ONE, 1), (VERSION.0, 2)]));
+        assert!(why(&[(ONE, 1)]).contains("another format"), "{}", why(&[(ONE, 1)]));
+    }
+}

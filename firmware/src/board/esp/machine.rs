@@ -13,14 +13,9 @@ use esp_hal::timer::PeriodicTimer;
 use esp_hal::timer::timg::TimerGroup;
 use flat_wire::message::Cause;
 
-#[cfg(all(feature = "esp32", feature = "provoke"))]
-pub(crate) use super::super::esp32::illegal_instruction;
-#[cfg(feature = "esp32")]
-pub(crate) use super::super::esp32::watch_guard;
-#[cfg(all(feature = "esp32c3", feature = "provoke"))]
-pub(crate) use super::super::esp32c3::illegal_instruction;
+pub(crate) use super::super::this::watch_guard;
 #[cfg(feature = "esp32c3")]
-pub(crate) use super::super::esp32c3::{is_code, reserve, watch_guard};
+pub(crate) use super::super::this::{is_code, reserve};
 pub(crate) use super::link::send_blocking;
 use crate::kept::{self, Kept};
 use crate::{board, fault, watchdog};

@@ -74,10 +74,3 @@ pub(crate) fn restart() -> ! {
 pub(crate) fn cause() -> Cause {
     Cause::PowerOn
 }
-
-/// Runs into an instruction that no processor has.
-#[cfg(feature = "provoke")]
-pub(crate) fn illegal_instruction() -> ! {
-    // SAFETY: ends in the exception handler, which doesn't return.
-    unsafe { core::arch::asm!("unimp", options(noreturn)) }
-}
