@@ -9,6 +9,7 @@
 //! time ─────▶ Session::tick ──▶ frames ───┘
 //!              scheduler ─▶ world: one stage at a time ─▶ stream: what to send of it
 //! ```
+//! Without the feature `physics` there is [`bare`] in place of all that, and nothing of the engine is compiled.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
