@@ -167,6 +167,34 @@ fn what_a_world_held_before_changes_no_bit_of_any_scene() {
 }
 
 #[test]
+fn every_scene_goes_on_from_a_snapshot_as_it_went_on_before() {
+    const HALF: u32 = 100;
+    let mut moving = 0;
+    for scene in SCENES {
+        let parameters = &scene.defaults;
+        let [mut storage, mut other] = [(); 2].map(|()| Box::new(Storage::<Fixed, 512, 4096, 2048>::new()));
+        let (mut world, mut saved) = (built(&mut storage, scene, parameters, Level::Grounded), other.world());
+        let mut memory = Memory::default();
+        let advance = |world: &mut World<'_, Fixed>, memory: &mut Memory, from: u32| {
+            for number in from + 1..=from + HALF {
+                scene.direct(parameters, Cue::unattended(number), memory, world).unwrap();
+                step(world, scene.effects);
+            }
+            digest(world)
+        };
+        advance(&mut world, &mut memory, 0);
+        saved.copy_from(&world).unwrap();
+        let (kept, before) = (memory, digest(&world));
+        let after = advance(&mut world, &mut memory, HALF);
+        moving += usize::from(after != before);
+        world.copy_from(&saved).unwrap();
+        memory = kept;
+        assert_eq!(advance(&mut world, &mut memory, HALF), after, "{}", scene.name);
+    }
+    assert!(moving > SCENES.len() / 2, "most still move then: {moving}");
+}
+
+#[test]
 fn a_seed_changes_a_pit() {
     let pit = find("ball_pit").unwrap();
     let end = |seed| state(pit, &pit.parameters(Some(40), Some(seed), Order::Forward).unwrap(), 200);
