@@ -91,7 +91,7 @@ pub fn run(arguments: &AdviseArgs) -> Result<bool, Error> {
     terminal::print_target(&evaluator.meter.identity);
     let settings = settings(&arguments.scalars);
     let bar = overall(settings.len());
-    let comparison = compare(&mut evaluator, scene, arguments.bodies, arguments.steps, &settings, &bar)?;
+    let comparison = compare(&mut evaluator, scene, choice, &settings, &bar)?;
     bar.finish_and_clear();
     let cycles = Cycles::of(evaluator.meter.unit);
     let wanted = Wanted { arguments, cycles: &cycles };

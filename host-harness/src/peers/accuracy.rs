@@ -13,10 +13,10 @@ use crate::measure::evaluate::Judge;
 use crate::report::figures::table;
 use crate::report::progress::overall;
 use crate::run;
-use crate::setting::Setting;
+use crate::setting::{Setting, lowercase};
 
 /// Scenes with a known answer, then hard cases.
-pub const SCENES: [(&str, u16); 18] = [
+pub const SCENES: [(&str, u16); 20] = [
     ("projectile", 5),
     ("bounce", 5),
     ("cradle", 5),
@@ -32,6 +32,8 @@ pub const SCENES: [(&str, u16); 18] = [
     ("anvil", 2),
     ("feather", 2),
     ("anvil_drop", 6),
+    ("vice", 15),
+    ("clamp", 6),
     ("ball_pit", 100),
     ("ball_pit", 200),
     ("ball_pit", 400),
@@ -159,7 +161,10 @@ pub fn print(lines: &[Line], setting: &Setting) {
     if let Some(last) = shown.column_mut(5) {
         last.set_cell_alignment(comfy_table::CellAlignment::Left);
     }
-    println!("measured by the same checks on the same scenes; `!` is not what must hold; flat at {setting}\n{shown}");
+    let level = lowercase(&setting.level);
+    println!(
+        "measured by the same checks on the same scenes; `!` is not what must hold; flat at level {level}\n{shown}"
+    );
 }
 
 /// All lines as Markdown.

@@ -17,7 +17,7 @@ use crate::measure::evaluate::Judge;
 use crate::measure::provenance::Provenance;
 use crate::report::marks;
 use crate::run;
-use crate::setting::Setting;
+use crate::setting::{Setting, lowercase};
 use crate::target::Means;
 use crate::target::qemu::Speed;
 use crate::target::reset::Reset;
@@ -90,8 +90,9 @@ fn live(arguments: &PeersArgs, scenes: &[(&'static str, u16)], means: &Means) ->
         let made = format!("Measured {}; made by `cargo rig peers --live --publish`.", Provenance::now());
         let short = accuracy::digest(&right);
         marks::publish("README.md", "live", &format!("{taken}\n{short}\n**Bold** is not what must hold. {made}"))?;
+        let level = lowercase(&arguments.setting.level);
         let long = accuracy::markdown(&right);
-        marks::publish("docs/peers.md", "live", &format!("{long}\nflat at {}. {made}", arguments.setting))?;
+        marks::publish("docs/peers.md", "live", &format!("{long}\nflat at level {level}. {made}"))?;
     }
     Ok(())
 }

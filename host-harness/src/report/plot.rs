@@ -37,7 +37,7 @@ pub const STYLE: &str = "\
 .plot text{font:12px system-ui,sans-serif}.plot .title{font-weight:600;font-size:14px}\
 .plot .limit{stroke-dasharray:6 4}.plot path.rule,.plot .limit,.plot .line,.plot .halo{fill:none}\
 .plot .line{stroke-width:1.8;stroke-linejoin:round}.plot .halo{stroke-width:1.6}\
-.plot .wide{stroke-width:6;opacity:.45}.plot .middle{stroke-width:3.4;opacity:.7}.plot .narrow{stroke-width:1.4}\
+.plot .dashed{stroke-dasharray:12 8}.plot .dotted{stroke-dasharray:4 10}\
 .l0{stroke:#1d5fd1}.f0{fill:#1d5fd1}.l1{stroke:#c04a00}.f1{fill:#c04a00}.l2{stroke:#167a3e}.f2{fill:#167a3e}\
 .l3{stroke:#8a2bbd}.f3{fill:#8a2bbd}.l4{stroke:#b3123f}.f4{fill:#b3123f}.l5{stroke:#0b7285}.f5{fill:#0b7285}\
 .l6{stroke:#7a6200}.f6{fill:#7a6200}.l7{stroke:#55606e}.f7{fill:#55606e}.plot text{fill:#1c1e21}\
@@ -140,7 +140,7 @@ impl Plot {
         );
         for (index, series) in keys.iter().enumerate() {
             let x = left + (size.0 - left) / across as f64 * (index % across) as f64;
-            series.draw_key(&mut svg, Look::nth(index), x, KEY * (1 + index / across) as f64);
+            series.draw_key(&mut svg, index, x, KEY * (1 + index / across) as f64);
         }
         svg += "</g>\n";
         for (index, plot) in plots.iter().enumerate() {
@@ -182,7 +182,7 @@ impl Plot {
         for (index, series) in self.series.iter().enumerate() {
             series.draw(&mut svg, index, &x, &y);
             if frame.right > KEY {
-                series.draw_key(&mut svg, Look::nth(index), right + 16.0, top + 10.0 + KEY * index as f64);
+                series.draw_key(&mut svg, index, right + 16.0, top + 10.0 + KEY * index as f64);
             }
         }
         svg + "</svg>\n"
@@ -246,20 +246,16 @@ impl Series {
         }
     }
 
-    /// Bare lines get narrower, so that those below the last still show where they coincide.
+    /// Bare lines are broken in turn, so that those below still show where several coincide.
     fn stroke(&self, index: usize) -> &'static str {
-        match index {
-            _ if self.marked => "",
-            0 => " wide",
-            1 => " middle",
-            _ => " narrow",
-        }
+        if self.marked { "" } else { ["", " dashed", " dotted"][index % 3] }
     }
 
-    fn draw_key(&self, svg: &mut String, nth: Look, left: f64, at: f64) {
-        let look = self.look.unwrap_or(nth);
+    fn draw_key(&self, svg: &mut String, index: usize, left: f64, at: f64) {
+        let look = self.look.unwrap_or(Look::nth(index));
         if self.joined {
-            let _ = write!(svg, "<path class=\"line l{}\" d=\"M{left:.1} {at:.1}h18\"/>", look.colour);
+            let stroke = self.stroke(index);
+            let _ = write!(svg, "<path class=\"line l{}{stroke}\" d=\"M{left:.1} {at:.1}h18\"/>", look.colour);
         }
         if self.marked {
             draw_mark(svg, look, left + 9.0, at, &self.name);

@@ -26,7 +26,8 @@ pub fn text(comparisons: &[Comparison], context: &Context) -> String {
         "Cost: {} of the engine's step on {}, mean of the run's second half. Error: how much of what a scene allows its worst \
          promise used; 0.5 is half of it, up to 1 all promises are kept, 10 is ten times too much (\
          10 000 stands for more, and for what the run never came to). A setting is worth its cost, and \
-         ringed, if none is both cheaper and more right (the Pareto front).",
+         ringed, if none is both cheaper and more right (the Pareto front). Lines join \
+         one level's numbers of passes.",
         context.unit, context.target,
     ));
     let header = ["scene", "cheapest that keeps all", "its cost", "what a cheaper one breaks"].map(str::to_owned);
@@ -62,12 +63,13 @@ fn scene(page: &mut Page, comparison: &Comparison, context: &Context) {
     let cost = format!("{} a step", context.unit);
     let header = ["setting", &*cost, "worst step", "error, x the bar", "promises held", "worst promise"];
     let header = header.map(str::to_owned);
-    let rows = |shown: &dyn Fn(&Candidate) -> bool| -> Vec<Vec<String>> {
-        comparison.candidates.iter().filter(|candidate| shown(candidate)).map(row).collect()
-    };
-    page.table(&header, &rows(&|candidate| candidate.on_front), |_| false);
-    let all = format!("all {} settings", comparison.candidates.len());
-    page.folded_table(&all, &header, &rows(&|_| true), |index| comparison.candidates[index].on_front);
+    let rows = |candidates: &[&Candidate]| candidates.iter().map(|candidate| row(candidate)).collect::<Vec<_>>();
+    let all: Vec<_> = comparison.candidates.iter().collect();
+    let fixed = |candidate: &&Candidate| candidate.evaluation.setting.scalar == ScalarArg::Fixed;
+    let listed: Vec<_> = all.iter().copied().filter(|candidate| candidate.on_front || fixed(candidate)).collect();
+    page.table(&header, &rows(&listed), |index| listed[index].on_front);
+    let summary = format!("All {} settings, floats included", all.len());
+    page.folded_table(&summary, &header, &rows(&all), |index| all[index].on_front);
     let about_overlap = |promise: &Promise| matches!(promise, Promise::Penetration { .. });
     let overlaps = scene
         .parameters(Some(comparison.bodies), None, Order::Forward)
