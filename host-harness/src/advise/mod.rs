@@ -177,3 +177,39 @@ fn print(comparison: &Comparison, wanted: &Wanted<'_>, unit: &str) {
         println!("cycles: {}", wanted.cycles.basis);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+    use flat_rig::check::{Finding, Series};
+
+    use super::*;
+    use crate::cli::{Cli, Command};
+    use crate::measure::Summary;
+    use crate::measure::evaluate::{Accuracy, Evaluation};
+
+    /// What a setting misses that uses 1.5 of what is allowed, overlaps by 0.2 px and takes 400 000 instructions at worst.
+    fn missed(options: &[&str]) -> Option<String> {
+        let words = ["rig", "advise", "stack"].iter().chain(options);
+        let Command::Advise(arguments) = Cli::parse_from(words).command else { panic!("another command") };
+        let finding = Finding { used: Some(1.5), ..Finding::count("no deep overlap", 1, 0, "") };
+        let series = Series { overlap: vec![0.2; 4], energy: Vec::new() };
+        let accuracy = Accuracy { findings: vec![finding], series, digest: 0 };
+        let cost = Summary { mean: 1e5, worst: 400_000, ..Summary::default() };
+        let evaluation = Evaluation { setting: Setting::default(), cost, accuracy };
+        let comparison = Comparison::new(run::find("stack").expect("a scene"), 10, 4, vec![evaluation]);
+        let cycles = Cycles::of(flat_wire::message::Counter::Instructions);
+        Wanted { arguments: &arguments, cycles: &cycles }.missed(&comparison.candidates[0])
+    }
+
+    #[test]
+    fn each_tolerance_is_held_against_its_own_figure() {
+        assert_eq!(missed(&[]).as_deref(), Some("no deep overlap: 1.50 x the bar"));
+        assert_eq!(missed(&["--tolerance", "1.5"]), None);
+        assert_eq!(missed(&["--tolerance", "2", "--overlap", "0.1"]).as_deref(), Some("overlap 0.200 px"));
+        assert_eq!(missed(&["--tolerance", "2", "--overlap", "0.2"]), None);
+        // 1.4 cycles each, of 2.67 million between two steps.
+        assert_eq!(missed(&["--tolerance", "2", "--load", "20"]).as_deref(), Some("21.0 % of 160 MHz"));
+        assert_eq!(missed(&["--tolerance", "2", "--load", "22"]), None);
+    }
+}

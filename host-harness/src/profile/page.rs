@@ -51,6 +51,7 @@ fn curve(page: &mut Page, profile: &Profile) {
         name: name.into(),
         joined: true,
         marked: true,
+        broken: false,
         look: None,
         points: profile
             .points

@@ -60,6 +60,8 @@ pub struct Series {
     pub joined: bool,
     /// Each with a mark.
     pub marked: bool,
+    /// Its line is broken, each series' otherwise, so that those below still show where several coincide.
+    pub broken: bool,
     /// Colour and shape of the marks; none = those of its place among the others.
     pub look: Option<Look>,
     /// x, y and what a pointer over it shows.
@@ -121,7 +123,7 @@ impl Series {
             let (offset, y) = chunk.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
             Some(Mark { x: (index * bunch + offset + 1) as f64, y, note: String::new(), ringed: false })
         });
-        Self { name: name.into(), joined: true, marked: false, look: None, points: points.collect() }
+        Self { name: name.into(), joined: true, marked: false, broken: false, look: None, points: points.collect() }
     }
 }
 
@@ -246,9 +248,9 @@ impl Series {
         }
     }
 
-    /// Bare lines are broken in turn, so that those below still show where several coincide.
+    /// The first is whole.
     fn stroke(&self, index: usize) -> &'static str {
-        if self.marked { "" } else { ["", " dashed", " dotted"][index % 3] }
+        if self.broken { ["", " dashed", " dotted"][index % 3] } else { "" }
     }
 
     fn draw_key(&self, svg: &mut String, index: usize, left: f64, at: f64) {
@@ -291,6 +293,7 @@ mod tests {
             name: name.into(),
             joined: true,
             marked: true,
+            broken: false,
             look: None,
             points: vec![mark(1.0, 0.0), mark(100.0, 3.0)],
         };

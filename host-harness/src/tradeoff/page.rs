@@ -116,7 +116,11 @@ pub fn error_against_cost(comparison: &Comparison, context: &Context) -> Plot {
         } else {
             let name = format!("{}, {}", lowercase(&key.0), lowercase(&key.1));
             let look = Some(Look { colour: key.0 as usize, shape: key.1 as usize });
-            series.push((key.0, key.1, Series { name, joined: true, marked: true, look, points: vec![mark] }));
+            series.push((
+                key.0,
+                key.1,
+                Series { name, joined: true, marked: true, broken: false, look, points: vec![mark] },
+            ));
         }
     }
     // The same order, and so the same colour, in every plot.
@@ -150,7 +154,7 @@ fn over_time(
     let series: Vec<Series> = [LevelArg::Flat, LevelArg::Grounded, LevelArg::Exact]
         .into_iter()
         .filter_map(shown)
-        .map(|candidate| Series::over_steps(candidate.name(), &value(candidate)))
+        .map(|candidate| Series { broken: true, ..Series::over_steps(candidate.name(), &value(candidate)) })
         .filter(|series| !series.points.is_empty())
         .collect();
     (!series.is_empty()).then(|| Plot {

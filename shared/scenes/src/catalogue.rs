@@ -2,6 +2,7 @@
 
 pub(crate) mod anvil_drop;
 pub(crate) mod ball_pit;
+pub(crate) mod beside;
 pub(crate) mod bounce;
 pub(crate) mod churn;
 pub(crate) mod cradle;

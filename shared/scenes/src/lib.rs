@@ -59,6 +59,7 @@ pub static SCENES: &[Scene] = &[
     catalogue::vice::VICE,
     catalogue::vice::CLAMP,
     catalogue::floating::SCENE,
+    catalogue::beside::SCENE,
     catalogue::churn::SCENE,
     catalogue::kinematic::PUSH,
     catalogue::kinematic::LIFT,
