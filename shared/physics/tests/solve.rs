@@ -340,3 +340,49 @@ fn a_digest_tells_any_bit_of_any_body() {
     }
     assert_eq!(digest(&world), before);
 }
+
+#[test]
+fn a_circle_rolls_over_seams_between_static_boxes_as_over_one() {
+    for (speed, gravity) in [(30, 200), (240, 200), (480, 600)] {
+        let mut storage = Storage::<Fixed, 128, 512>::new();
+        let mut world = storage.world();
+        world.configure(Config { gravity: vec2(px(0), px(gravity)), ..Config::default() }).unwrap();
+        let half = vec2(px(8), px(4));
+        for number in 0..100 {
+            let tile = BodyDef::fixed(Shape::Box { half }, vec2(px(8 + 16 * number), px(4)));
+            world.spawn(&BodyDef { material: DULL, ..tile }).unwrap();
+        }
+        let circle = BodyDef::rigid(Shape::Circle { radius: px(6) }, vec2(px(20), px(-6)));
+        let circle = world.spawn(&BodyDef { material: DULL, velocity: vec2(px(speed), px(0)), ..circle }).unwrap();
+        let before = world.body(circle).unwrap();
+        for n in 0..180 {
+            step(&mut world, Effects::GRAVITY);
+            let now = world.body(circle).unwrap();
+            assert_eq!(
+                (now.velocity, now.position.y),
+                (before.velocity, before.position.y),
+                "{speed} px/s, gravity {gravity}, step {n}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_column_knows_its_load_from_the_second_step_on() {
+    let mut storage = Storage::<Fixed, 16, 64>::new();
+    let mut world = storage.world();
+    let square = Shape::Box { half: vec2(px(6), px(6)) };
+    let floor = BodyDef { material: DULL, ..BodyDef::fixed(square, vec2(px(0), px(6))) };
+    let floor = world.spawn(&floor).unwrap();
+    for level in 0..10 {
+        let member = BodyDef::rigid(square, vec2(px(0), px(-6 - 12 * level)));
+        world.spawn(&BodyDef { material: DULL, ..member }).unwrap();
+    }
+    for n in 1..=4 {
+        step(&mut world, Effects::GRAVITY);
+        let contact = world.contacts().find(|contact| contact.bodies.contains(&floor)).unwrap();
+        // 10 m g dt, as a speed in px per step.
+        let part = contact.impulse.x.to_num::<f64>() / (10.0 * 200.0 / 3600.0);
+        assert!(n == 1 || (part - 1.0).abs() < 1e-3, "step {n}: {part} of the load");
+    }
+}
