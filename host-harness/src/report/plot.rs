@@ -128,13 +128,13 @@ impl Series {
 }
 
 impl Plot {
-    /// A lone SVG file: plots of the same series side by side, so many in a row, under one legend.
-    pub fn sheet(plots: &[Self], columns: usize) -> String {
+    /// A lone SVG file: plots of the same series side by side, so many in a row, under one legend and above a caption.
+    pub fn sheet(plots: &[Self], columns: usize, caption: &str) -> String {
         let Frame { width, height, left, .. } = Frame::TILE;
         let keys = plots.first().map_or(&[][..], |plot| &plot.series);
         let across = 3;
         let head = KEY * (1 + keys.len().div_ceil(across)) as f64;
-        let size = (width * columns as f64, head + height * plots.len().div_ceil(columns) as f64);
+        let size = (width * columns as f64, head + height * plots.len().div_ceil(columns) as f64 + KEY);
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\
              <style>{STYLE}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n<g class=\"plot\">",
@@ -144,7 +144,12 @@ impl Plot {
             let x = left + (size.0 - left) / across as f64 * (index % across) as f64;
             series.draw_key(&mut svg, index, x, KEY * (1 + index / across) as f64);
         }
-        svg += "</g>\n";
+        let _ = writeln!(
+            svg,
+            "<text class=\"soft\" x=\"{left}\" y=\"{:.1}\">{}</text></g>",
+            size.1 - 0.4 * KEY,
+            escape(caption)
+        );
         for (index, plot) in plots.iter().enumerate() {
             let (x, y) = (width * (index % columns) as f64, head + height * (index / columns) as f64);
             let _ = writeln!(svg, "<g transform=\"translate({x} {y})\">{}</g>", plot.draw(&Frame::TILE));
@@ -308,7 +313,7 @@ mod tests {
 
     #[test]
     fn markup_balances_and_text_is_escaped() {
-        let svg = Plot::sheet(&[plot(), plot(), plot()], 2);
+        let svg = Plot::sheet(&[plot(), plot(), plot()], 2, "measured <here>");
         for element in ["svg", "g", "text", "circle", "title", "style"] {
             let (open, close) = (format!("<{element}"), format!("</{element}>"));
             let self_closed = svg.matches(&open).count() - svg.matches(&close).count();

@@ -23,9 +23,11 @@ const MARK: &str = "tradeoff";
 /// If a file cannot be written, or the README has no such marks.
 pub fn publish(comparisons: &[Comparison], context: &Context) -> Result<(), Error> {
     let plots: Vec<Plot> = comparisons.iter().map(|comparison| error_against_cost(comparison, context)).collect();
+    let caption = format!("Measured {}, cost on {}.", context.provenance, context.target);
     let path = workspace::root()?.join(PLOT);
     let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-    made.and_then(|()| fs::write(&path, Plot::sheet(&plots, 2))).map_err(|error| marks::unwritable(&path, &error))?;
+    made.and_then(|()| fs::write(&path, Plot::sheet(&plots, 2, &caption)))
+        .map_err(|error| marks::unwritable(&path, &error))?;
     println!("{PLOT} is written");
     marks::publish("README.md", MARK, &table(comparisons, context))
 }
