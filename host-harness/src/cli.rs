@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use flat_physics::Stage;
-use flat_rig::variant::{self, VariantArgs};
+use flat_rig::variant::VariantArgs;
 use flat_wire::message::{Flip, Level, Order, Point, ScalarKind};
 
 use crate::advise::AdviseArgs;
@@ -194,8 +194,7 @@ impl RunArgs {
                 self.flip.map(|Flip { point, body, bit }| format!("{}:{}:{body}:{bit}", point.step, point.stage)),
             );
         }
-        words.extend(job.inputs.iter().flat_map(|inputs| ["--input".to_owned(), inputs.to_string()]));
-        words.extend(variant::options(job.scene, &job.parameters));
+        words.extend(job.options());
         words.extend(self.setting.options());
         words.extend(self.reset.option().map(str::to_owned));
         shell_words::join(words)

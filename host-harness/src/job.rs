@@ -135,6 +135,12 @@ impl Job {
         if self.inputs.is_some() { Player::Host } else { Player::Demo }
     }
 
+    /// The options that ask for it, without those that are the scene's defaults anyway.
+    pub fn options(&self) -> Vec<String> {
+        let inputs = self.inputs.iter().flat_map(|inputs| ["--input".to_owned(), inputs.to_string()]);
+        inputs.chain(variant::options(self.scene, &self.parameters)).collect()
+    }
+
     /// The parameters for the report.
     pub fn reported(&self) -> report::Parameters {
         report::Parameters {
@@ -143,7 +149,7 @@ impl Job {
             order: self.request.order,
             level: self.request.level,
             scalar: self.request.scalar,
-            options: variant::options(self.scene, &self.parameters).join(" "),
+            options: shell_words::join(self.options()),
         }
     }
 }

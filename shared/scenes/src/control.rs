@@ -7,7 +7,7 @@ use heapless::Vec;
 
 /// What a script can see and do, by the bodies' numbers and in the scene's own coordinates: px and px/s.
 ///
-/// A number that nobody has changes nothing, and stands still at the origin.
+/// A number that nobody has changes nothing, and stands still at the origin. Beyond the coordinate range there is nothing.
 pub(crate) trait Control {
     /// Where a body is.
     fn position(&self, number: u16) -> Vec2<I16F16>;

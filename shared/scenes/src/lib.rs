@@ -2,7 +2,8 @@
 //! all build them from here.
 //!
 //! A scene is a pure function from [`Parameters`] and a body's number to that body's definition, in fixed point; other number
-//! formats convert it. Each scene is one file in the catalogue; [`SCENES`] lists them.
+//! formats convert it. What it does while it runs is a script, called before each step with what the player holds down: see
+//! [`Scene::direct`]. Each scene is one file in the catalogue; [`SCENES`] lists them.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
