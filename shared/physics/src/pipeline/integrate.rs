@@ -12,8 +12,9 @@ use crate::scalar::{Quantity, Scalar};
 use crate::vec2::Vec2;
 use crate::world::World;
 
-/// How far a body creeps before its contacts are looked at again, as [`Scalar::creep`] counts: 2^-11 px, a fortieth of the slop.
-const CREEP: u16 = 8;
+/// How far a body creeps before its contacts are looked at again, as [`Scalar::creep`] counts. With more
+/// than 2^-13 px, pyramids never come to rest.
+const CREEP: u16 = 2;
 
 /// What gravity adds to a velocity in a step, where it is on.
 pub(crate) fn gravity<S: Scalar>(world: &World<'_, S>, switches: impl Switches) -> Vec2<S::Speed> {
