@@ -17,7 +17,7 @@ mod on_target {
 
     use embassy_time::{Duration, Instant};
     use flat_physics::{Fixed, Level, Scalar, Storage, World, digest, step};
-    use flat_scenes::Cue;
+    use flat_scenes::{Cue, Memory};
     use flat_wire::MAX_FRAME;
     use flat_wire::message::Cause;
     use static_cell::ConstStaticCell;
@@ -101,9 +101,10 @@ mod on_target {
     fn ends_in_the_known_bits<S: Scalar>(name: &str, column: usize, mut world: World<'_, S>) {
         let scene = flat_scenes::find(name).expect("the catalogue has it");
         scene.build(&scene.defaults, Level::Grounded, &mut world).expect("the room is enough");
+        let mut memory = Memory::default();
         for step_number in 1..=scene.steps {
-            let cue = Cue { step: step_number, buttons: 0 };
-            scene.direct(&scene.defaults, cue, &mut world).expect("the scene knows its bodies");
+            let cue = Cue::unattended(step_number);
+            scene.direct(&scene.defaults, cue, &mut memory, &mut world).expect("the scene knows its bodies");
             step(&mut world, scene.effects);
         }
         let line =

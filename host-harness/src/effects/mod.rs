@@ -2,6 +2,7 @@
 
 mod findings;
 mod page;
+mod publish;
 mod sizes;
 mod table;
 mod toggles;
@@ -48,6 +49,10 @@ pub struct EffectsArgs {
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
 
+    /// Writes the table into the README of this source tree, in place of the one there
+    #[arg(long, conflicts_with = "no_sizes")]
+    publish: bool,
+
     /// Longest wait for any sign of progress
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     timeout: Duration,
@@ -88,6 +93,9 @@ pub fn run(arguments: &EffectsArgs) -> Result<bool, Error> {
     }
     if let Some(file) = html_file {
         file.write(&page::text(&costs))?;
+    }
+    if arguments.publish {
+        publish::publish(&costs)?;
     }
     Ok(costs.problems().is_empty())
 }

@@ -141,6 +141,7 @@ impl<'a> Layers<'a> {
     }
 
     /// Moving bodies; the links, which are free between steps; scratch space, one a body.
+    #[inline]
     pub(crate) fn islands(&mut self) -> (&[u16], &mut [u16], &mut [u16]) {
         (&self.order[..self.dynamic_count], self.links, self.groups)
     }
