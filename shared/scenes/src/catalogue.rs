@@ -32,6 +32,7 @@ pub(crate) mod vice;
 
 use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};
+use flat_physics::tiles::TileFlags;
 use flat_physics::{BodyDef, Effects, Fixed, Level, Material, Shape, Vec2, vec2};
 
 use crate::parameters::{Order, Parameters, Takes, Variant};
@@ -125,4 +126,18 @@ fn settled(parameters: &Parameters, scene_gravity: i16, fall: u32) -> u32 {
     // t = sqrt(2 h / g)
     let gravity = parameters.variant.gravity.unwrap_or(scene_gravity).unsigned_abs().max(1);
     60 + (7200 * fall / u32::from(gravity)).isqrt()
+}
+
+/// Tiles of a room, row by row: its border is solid.
+const fn room<const TILES: usize>(columns: usize) -> [u8; TILES] {
+    let mut tiles = [0; TILES];
+    let mut place = 0;
+    while place < TILES {
+        let (column, row) = (place % columns, place / columns);
+        if column == 0 || column == columns - 1 || row == 0 || row == TILES / columns - 1 {
+            tiles[place] = TileFlags::SOLID.bits();
+        }
+        place += 1;
+    }
+    tiles
 }

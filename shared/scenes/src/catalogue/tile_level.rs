@@ -5,7 +5,7 @@ use flat_physics::scalar::{px, ratio};
 use flat_physics::tiles::TileFlags;
 use flat_physics::{BodyDef, Effects, Fixed, vec2};
 
-use super::{COMMON, at, body, bouncy, circle, dull, square, usual};
+use super::{COMMON, at, body, bouncy, circle, dull, room, square, usual};
 use crate::control::Control;
 use crate::parameters::{Parameters, Takes, Turns};
 use crate::promise::Promise;
@@ -49,13 +49,12 @@ static LEVEL: [u8; COLUMNS * ROWS] = level();
 
 /// Solid: the border, rows 27 to 31, and in rows 4, 8, ... 24 the columns 3 to 8 of every twelve.
 const fn level() -> [u8; COLUMNS * ROWS] {
-    let mut tiles = [0; COLUMNS * ROWS];
+    let mut tiles = room(COLUMNS);
     let mut place = 0;
     while place < tiles.len() {
         let (column, row) = (place % COLUMNS, place / COLUMNS);
-        let border = column == 0 || column == COLUMNS - 1 || row == 0 || row >= 27;
         let platform = row % 4 == 0 && column % 12 >= 3 && column % 12 <= 8;
-        if border || platform {
+        if row >= 27 || platform {
             tiles[place] = TileFlags::SOLID.bits();
         }
         place += 1;
@@ -100,21 +99,7 @@ pub(crate) const SEAMS: Scene = Scene {
     ..TILE_LEVEL
 };
 
-static ROOM: [u8; COLUMNS * ROWS] = room();
-
-/// Solid: the border.
-const fn room() -> [u8; COLUMNS * ROWS] {
-    let mut tiles = [0; COLUMNS * ROWS];
-    let mut place = 0;
-    while place < tiles.len() {
-        let (column, row) = (place % COLUMNS, place / COLUMNS);
-        if column == 0 || column == COLUMNS - 1 || row == 0 || row == ROWS - 1 {
-            tiles[place] = TileFlags::SOLID.bits();
-        }
-        place += 1;
-    }
-    tiles
-}
+static ROOM: [u8; COLUMNS * ROWS] = room(COLUMNS);
 
 /// The side that a body slides along. Gravity presses against the first two.
 #[derive(Clone, Copy, PartialEq)]

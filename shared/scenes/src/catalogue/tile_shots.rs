@@ -2,10 +2,9 @@
 
 use fixed::types::I16F16;
 use flat_physics::scalar::px;
-use flat_physics::tiles::TileFlags;
 use flat_physics::{BodyDef, Effects, Fixed, vec2};
 
-use super::{COMMON, at, body, bouncy, circle, square, usual};
+use super::{COMMON, at, body, bouncy, circle, room, square, usual};
 use crate::control::Control;
 use crate::parameters::{Parameters, Takes, Turns};
 use crate::promise::Promise;
@@ -46,21 +45,7 @@ pub(crate) const SCENE: Scene = Scene {
     ..COMMON
 };
 
-static ROOM: [u8; COLUMNS * ROWS] = room();
-
-/// Solid: the border.
-const fn room() -> [u8; COLUMNS * ROWS] {
-    let mut tiles = [0; COLUMNS * ROWS];
-    let mut place = 0;
-    while place < tiles.len() {
-        let (column, row) = (place % COLUMNS, place / COLUMNS);
-        if column == 0 || column == COLUMNS - 1 || row == 0 || row == ROWS - 1 {
-            tiles[place] = TileFlags::SOLID.bits();
-        }
-        place += 1;
-    }
-    tiles
-}
+static ROOM: [u8; COLUMNS * ROWS] = room(COLUMNS);
 
 /// From anywhere near the middle of the room, to anywhere.
 fn shot(parameters: &Parameters, number: u16, volley: u32) -> BodyDef<Fixed> {
