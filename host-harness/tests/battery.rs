@@ -129,6 +129,7 @@ const MOVED: &[&str] = &["push", "lift", "crush"];
 const SHOT: &[&str] = &["shots", "tile_shots"];
 const ON_TILES: &[&str] = &["tile_level", "seams"];
 const CHURNED: &[&str] = &["churn", "soak"];
+const ASLEEP: &[&str] = &["naps"];
 const PLAYED: &[&str] = &["platformer", "ledges"];
 const TOLD: &[&str] = &["tripwires"];
 const LOOKING: &[&str] = &["patrol"];
@@ -152,6 +153,11 @@ fn bounces_keep_energy_and_momentum() {
 #[test]
 fn friction_stops_where_coulomb_says() {
     hold(SLIDING);
+}
+
+#[test]
+fn what_sleeps_wakes_and_sleeps_again() {
+    hold(ASLEEP);
 }
 
 #[test]
@@ -276,8 +282,8 @@ fn an_hour_of_everything_ends_in_the_same_bits_twice() {
 #[test]
 fn every_scene_is_in_the_battery() {
     let groups = [
-        FREE, LONG, BOUNCING, SLIDING, STANDING, PITS, APART, HEAPS, TIGHT, MOVED, SHOT, ON_TILES, CHURNED, PLAYED,
-        TOLD, LOOKING, CRUMBLING,
+        FREE, LONG, BOUNCING, SLIDING, STANDING, PITS, APART, HEAPS, TIGHT, MOVED, SHOT, ON_TILES, CHURNED, ASLEEP,
+        PLAYED, TOLD, LOOKING, CRUMBLING,
     ];
     let mut names = groups.concat();
     let mut all: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();

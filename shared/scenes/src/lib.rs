@@ -36,6 +36,7 @@ pub static SCENES: &[Scene] = &[
     catalogue::ball_pit::BALL_PIT_OFFSET,
     catalogue::ball_pit::BALL_PIT_MIXED,
     catalogue::crate_columns::SCENE,
+    catalogue::crate_columns::NAPS,
     catalogue::projectile::SCENE,
     catalogue::drift::SCENE,
     catalogue::terminal::SCENE,

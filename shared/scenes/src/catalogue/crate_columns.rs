@@ -25,6 +25,31 @@ pub(crate) const SCENE: Scene = Scene {
     ..COMMON
 };
 
+/// When a crate is thrown up, and when all sleep again.
+const THROW: u32 = 300;
+const REST: u32 = 420;
+
+pub(crate) const NAPS: Scene = Scene {
+    name: "naps",
+    purpose: "columns of crates fall asleep; a crate thrown up wakes its own column, until that sleeps again",
+    effects: SCENE.effects.and(Effects::SLEEP),
+    defaults: usual(50),
+    bodies: HIGH..=1000,
+    script: Some(|_, moment, control| {
+        if moment.step == THROW {
+            control.set_velocity(HIGH, at(0, -60)); // the top of the first column
+        }
+    }),
+    promises: |parameters| {
+        Promises::from_iter([
+            inside(parameters),
+            Promise::Penetration { from: REST, at_most: STANDING },
+            Promise::Still { from: REST },
+        ])
+    },
+    ..SCENE
+};
+
 /// Number 0 is the floor, its top at y = 0; then column by column, from the floor up.
 fn member(parameters: &Parameters, number: u16) -> BodyDef<Fixed> {
     let material = dull(ratio(3, 10));
@@ -47,13 +72,14 @@ fn right(parameters: &Parameters) -> i16 {
 }
 
 /// A crate whose centre is past the middle of the floor would leave below.
+fn inside(parameters: &Parameters) -> Promise {
+    let gap = i16::from(parameters.variant.gap);
+    let top = -(HIGH as i16) * (SIDE + gap);
+    Promise::Within { min: at(-PITCH, top), max: at(right(parameters), 0), tolerance: px(SIDE) }
+}
+
 fn promises(parameters: &Parameters) -> Promises {
     let gap = u32::from(parameters.variant.gap);
     let from = settled(parameters, SCENE.gravity, u32::from(HIGH) * gap);
-    let top = -(HIGH as i16) * (SIDE + gap as i16);
-    Promises::from_iter([
-        Promise::Within { min: at(-PITCH, top), max: at(right(parameters), 0), tolerance: px(SIDE) },
-        Promise::Penetration { from, at_most: STANDING },
-        Promise::Still { from },
-    ])
+    Promises::from_iter([inside(parameters), Promise::Penetration { from, at_most: STANDING }, Promise::Still { from }])
 }
