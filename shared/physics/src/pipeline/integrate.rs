@@ -28,6 +28,7 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
         bounce::bounce(world, gravity);
     }
     let (damping, cap) = (world.config.damping, world.speed_cap);
+    let below_cap = S::half_speed(cap); // along both axes: most need no root
     let pulls = gravity != Vec2::default();
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
@@ -55,7 +56,8 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
         if switches.on(Effects::DAMPING) {
             velocity = velocity.map(|v| S::speed_scaled(v, damping));
         }
-        if switches.on(Effects::SPEED_CAP) {
+        let is_slow = |v: Vec2<S::Speed>| v.x.is_within(below_cap) && v.y.is_within(below_cap);
+        if switches.on(Effects::SPEED_CAP) && !is_slow(velocity) {
             velocity = S::capped(velocity, cap);
         }
         body.velocity = velocity;
