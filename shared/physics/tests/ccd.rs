@@ -310,3 +310,20 @@ fn fast_sliding_over_seams_between_bodies_is_not_stopped() {
         assert_eq!((body.position.x, body.velocity.x), (px(880), Fixed::speed(px(480))), "{level:?}");
     }
 }
+
+#[test]
+fn the_threshold_says_from_which_speed_on_bodies_are_swept() {
+    let passes = |threshold: i16| {
+        let mut storage = Storage::<Fixed, 2, 4>::new();
+        let mut world = storage.world();
+        let flat = Config { gravity: vec2(px(0), px(0)), ccd_threshold: px(threshold), ..Config::at(Level::Flat) };
+        world.configure(flat).unwrap();
+        world.spawn(&BodyDef::fixed(square(1.0), vec2(px(25), px(0)))).unwrap();
+        // 50 px a step: 12.5 times half of its size.
+        let shot = BodyDef { velocity: vec2(px(3000), px(0)), ..BodyDef::rigid(square(4.0), vec2(px(0), px(0))) };
+        let shot = world.spawn(&shot).unwrap();
+        step(&mut world, Effects::CCD);
+        place(&world, shot)[0] > 25.0
+    };
+    assert_eq!([1, 12, 13].map(passes), [false, false, true]);
+}

@@ -25,7 +25,8 @@ impl TileFlags {
     pub const DAMAGE: Self = Self(1 << 2);
     /// Can be consumed: a coin, a brick that breaks.
     pub const COLLECTIBLE: Self = Self(1 << 3);
-    /// Holds what lands on it from above and lets pass what comes from elsewhere.
+    /// Holds what lands on it from above, at lesser y, and lets pass what comes from elsewhere. Where gravity pulls to another side
+    /// than down, it holds nothing.
     pub const ONE_WAY: Self = Self(1 << 4);
     /// Starts something; the game decides what.
     pub const TRIGGER: Self = Self(1 << 5);
