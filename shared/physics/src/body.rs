@@ -381,6 +381,12 @@ impl<S: Scalar> Body<S> {
         if self.status.is_circle() { Shape::Circle { radius: self.half.x } } else { Shape::Box { half: self.half } }
     }
 
+    /// Only rigid bodies sleep: for others the mark means [`STIRRED`](Marks::STIRRED).
+    #[inline]
+    pub(crate) fn is_asleep(&self) -> bool {
+        self.status.is_rigid() && self.marks.has(Marks::ASLEEP)
+    }
+
     #[inline]
     pub(crate) fn left(&self) -> S::Real {
         self.position.x - self.half.x

@@ -14,7 +14,7 @@ use super::integrate;
 use super::order::{self, Ground};
 use super::pairs::{NONE, Update};
 use super::terrain;
-use crate::body::{Body, Marks, Profile};
+use crate::body::{Body, Profile};
 use crate::contact::Flags;
 use crate::effects::{Effects, Switches};
 use crate::scalar::{Quantity, Scalar, px, ratio};
@@ -158,11 +158,10 @@ impl<'a> Layers<'a> {
             return;
         }
         self.dirty = false;
-        let sleeps = |body: &Body<S>| body.status.is_rigid() && body.marks.has(Marks::ASLEEP);
-        self.dynamic_count = gather(self.order, bodies, |body| !body.status.is_static() && !sleeps(body));
+        self.dynamic_count = gather(self.order, bodies, |body| !body.status.is_static() && !body.is_asleep());
         let (dynamics, rest) = self.order.split_at_mut(self.dynamic_count);
-        self.static_count = gather(rest, bodies, |body| body.status.is_static() || sleeps(body));
-        self.sleepers = rest[..self.static_count].iter().filter(|&&slot| sleeps(&bodies[usize::from(slot)])).count();
+        self.static_count = gather(rest, bodies, |body| body.status.is_static() || body.is_asleep());
+        self.sleepers = rest[..self.static_count].iter().filter(|&&slot| bodies[usize::from(slot)].is_asleep()).count();
         order::sort(dynamics, bodies, self.ground);
         if self.statics_dirty {
             self.statics_dirty = false;

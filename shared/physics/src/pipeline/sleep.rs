@@ -223,11 +223,12 @@ fn rouse<S: Scalar>(world: &mut World<'_, S>) {
         }
     }
     for slot in 0..world.bodies.len() {
-        let Body { marks, status, .. } = world.bodies[slot];
-        if world.profiles[slot].rest == ASLEEP && !(status.is_rigid() && marks.has(Marks::ASLEEP)) {
+        let body = &world.bodies[slot];
+        let (is_stirred, sleeps) = (!body.status.is_rigid() && body.marks.has(Marks::STIRRED), body.is_asleep());
+        if world.profiles[slot].rest == ASLEEP && !sleeps {
             wake_island(slot as u16, world);
         }
-        if !status.is_rigid() && marks.has(Marks::STIRRED) {
+        if is_stirred {
             world.bodies[slot].marks.clear(Marks::STIRRED);
             rouse_around(slot as u16, world);
         }
@@ -245,9 +246,7 @@ fn rouse_around<S: Scalar>(slot: u16, world: &mut World<'_, S>) {
     let bounds = Bounds::swept(&Outline::of(body), motion).grown(S::real(px(NEAR)));
     for other in 0..world.bodies.len() {
         let sleeper = &world.bodies[other];
-        let is_near = sleeper.marks.has(Marks::ASLEEP)
-            && sleeper.status.is_rigid()
-            && bounds.touch(&Bounds::of(&Outline::of(sleeper)));
+        let is_near = sleeper.is_asleep() && bounds.touch(&Bounds::of(&Outline::of(sleeper)));
         if is_near && world.profiles[usize::from(slot)].meets(&world.profiles[other]) {
             wake_island(other as u16, world);
         }

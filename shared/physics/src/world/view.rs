@@ -1,7 +1,7 @@
 //! What users read of a world between steps.
 
 use super::World;
-use crate::body::{Body, BodyDef, Kind, Marks};
+use crate::body::{Body, BodyDef, Kind};
 use crate::error::Error;
 use crate::handle::Handle;
 use crate::scalar::{Quantity, Scalar};
@@ -146,7 +146,7 @@ impl<S: Scalar> World<'_, S> {
             shape: body.shape(),
             visible: body.status.is_visible(),
             enabled: body.status.is_enabled(),
-            asleep: body.status.is_rigid() && body.marks.has(Marks::ASLEEP),
+            asleep: body.is_asleep(),
             user_data: self.profiles[usize::from(slot)].user_data,
         }
     }
