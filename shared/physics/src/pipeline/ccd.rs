@@ -34,7 +34,7 @@ pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
         return;
     }
     if world.deep {
-        hold_back(world);
+        hold_back(world, switches);
     }
     let threshold = if exact { S::Real::ZERO } else { world.config.ccd_threshold };
     if all_are_slow(S::speed_scaled(world.smallest, threshold), world) {
@@ -43,7 +43,7 @@ pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
     let (mut fast, mut swift) = (false, false);
     for place in 0..world.layers.dynamics().len() {
         let slot = world.layers.dynamics()[place];
-        let speed = mark(slot, threshold, world);
+        let speed = mark(slot, threshold, world, switches);
         fast |= speed != Pace::Slow;
         swift |= speed == Pace::Swift;
     }
@@ -86,7 +86,7 @@ pub(crate) fn deep<S: Scalar>() -> S::Speed {
 }
 
 /// What is pressed deep into something immovable, however slowly, is pressed no further than to its centre.
-fn hold_back<S: Scalar>(world: &mut World<'_, S>) {
+fn hold_back<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let deep = deep::<S>();
     for place in 0..world.pool.all().len() {
         let contact = world.pool.all()[place];
@@ -94,7 +94,7 @@ fn hold_back<S: Scalar>(world: &mut World<'_, S>) {
         if contact.gap >= deep || !flags.has(Flags::IMMOVABLE) || flags.has(Flags::FAR) {
             continue;
         }
-        let motion = motion(contact.a, world);
+        let motion = motion(contact.a, world, switches);
         let body = &mut world.bodies[usize::from(contact.a)];
         let into = S::in_a_step(S::speed_along(motion, contact.normal));
         let room = (least(body) - S::in_a_step(-contact.gap)).greater(S::Real::ZERO);
@@ -145,8 +145,8 @@ enum Pace {
 }
 
 /// Marks a fast body, and as jolted one whose motion isn't that for which pairs were found.
-fn mark<S: Scalar>(slot: u16, threshold: S::Real, world: &mut World<'_, S>) -> Pace {
-    let motion = motion(slot, world);
+fn mark<S: Scalar>(slot: u16, threshold: S::Real, world: &mut World<'_, S>, switches: impl Switches) -> Pace {
+    let motion = motion(slot, world, switches);
     let before = world.before[usize::from(slot)];
     let body = &mut world.bodies[usize::from(slot)];
     let least = S::per_step(least(body));
@@ -177,7 +177,8 @@ fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl S
             stopped |= sweep(slot, other, Flags::default(), world, switches) == Outcome::Stopped;
         }
     }
-    let (outline, motion) = (Outline::of(&world.bodies[usize::from(slot)]), motion(slot, world).map(S::in_a_step));
+    let (outline, motion) =
+        (Outline::of(&world.bodies[usize::from(slot)]), motion(slot, world, switches).map(S::in_a_step));
     let way = Bounds::swept(&outline, motion);
     let way = grid::Bounds { min: way.min, max: way.max };
     let World { bodies, profiles, layers, .. } = world;
@@ -205,7 +206,7 @@ fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl S
 /// Cuts the motions of a pair that would meet on its way, of which at least one is fast.
 fn sweep<S: Scalar>(a: u16, b: u16, flags: Flags, world: &mut World<'_, S>, switches: impl Switches) -> Outcome {
     let ground = world.layers.ground();
-    let [motion_a, motion_b] = [a, b].map(|slot| motion(slot, world));
+    let [motion_a, motion_b] = [a, b].map(|slot| motion(slot, world, switches));
     let relative = motion_a.saturating_sub(motion_b).map(S::in_a_step);
     let [first, second] = [a, b].map(|slot| &world.bodies[usize::from(slot)]);
     let meet = world.profiles[usize::from(a)].meets(&world.profiles[usize::from(b)]);
@@ -256,7 +257,7 @@ fn sweep_tiles<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl Sw
     if !body.marks.has(Marks::FAST) || !body.status.is_rigid() || body.status.is_sensor() || !meets {
         return;
     }
-    let whole = motion(slot, world).map(S::in_a_step);
+    let whole = motion(slot, world, switches).map(S::in_a_step);
     let mut motion = whole;
     let mut stopped: Option<S::Unit> = None;
     for _ in 0..SURFACES {
@@ -309,9 +310,9 @@ fn stop<S: Scalar>(body: &Body<S>, motion: Vec2<S::Real>, hit: &Hit<S>) -> Optio
 }
 
 /// How far a body would move in this step.
-fn motion<S: Scalar>(slot: u16, world: &World<'_, S>) -> Vec2<S::Speed> {
+fn motion<S: Scalar>(slot: u16, world: &World<'_, S>, switches: impl Switches) -> Vec2<S::Speed> {
     let body = &world.bodies[usize::from(slot)];
-    let motion = integrate::motion(body, world.before[usize::from(slot)], world.config.level != Level::Flat);
+    let motion = integrate::motion(body, world.before[usize::from(slot)], world.level(switches) != Level::Flat);
     if body.push == 0 { motion } else { motion.map(|speed| S::uncut(speed, body.push)) }
 }
 
