@@ -7,7 +7,7 @@ use ::fixed::types::I16F16;
 use crate::effects::Effects;
 use crate::error::{Error, Field, check, check_positive};
 use crate::material::Material;
-use crate::scalar::{Fixed, POSITION_LIMIT, Quantity, SPEED_LIMIT, STEP_HZ, Scalar};
+use crate::scalar::{Fixed, POSITION_LIMIT, Quantity, SPEED_LIMIT, STEP_HZ, Scalar, px};
 use crate::shape::Shape;
 use crate::vec2::{Vec2, vec2};
 
@@ -402,6 +402,13 @@ impl<S: Scalar> Body<S> {
     #[inline]
     pub(crate) fn bottom(&self) -> S::Real {
         self.position.y + self.half.y
+    }
+
+    /// Whether the centre is beyond [`POSITION_LIMIT`].
+    #[inline]
+    pub(crate) fn is_beyond_limit(&self) -> bool {
+        let limit = S::real(px(POSITION_LIMIT));
+        !self.position.x.is_within(limit) || !self.position.y.is_within(limit)
     }
 
     /// Shifts the body by what it covers in a step at a velocity; whether its position has changed.

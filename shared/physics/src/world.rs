@@ -72,6 +72,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             fastest: S::Speed::ZERO,
             smallest: S::Speed::ZERO,
             deep: false,
+            strays: false,
             speed_cap: S::Speed::ZERO,
             used: 0,
             free: 0,
@@ -125,6 +126,8 @@ pub struct World<'a, S: Scalar> {
     pub(crate) smallest: S::Speed,
     /// A contact may be so deep that continuous collision detection must care, however slow its bodies are.
     pub(crate) deep: bool,
+    /// A body may have left the world in this step.
+    pub(crate) strays: bool,
     pub(crate) speed_cap: S::Speed,
     /// Slots below this have held a body since the world was last empty.
     used: u16,

@@ -12,24 +12,27 @@ const TOLERANCE: ::fixed::types::I16F16 = ratio(1, 16);
 /// Notes high-water marks and events, and disables bodies whose centre is beyond [`POSITION_LIMIT`].
 pub(crate) fn publish<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     world.pool.count();
-    let limit = S::real(px(POSITION_LIMIT));
-    let mut escaped = 0;
-    for &slot in world.layers.dynamics() {
-        let body = &mut world.bodies[usize::from(slot)];
-        if body.position.x.abs() > limit || body.position.y.abs() > limit {
-            body.position = body.position.map(|p| p.held(limit));
-            body.status.disable();
-            escaped += 1;
-        }
-    }
-    if escaped > 0 {
-        world.escaped = world.escaped.saturating_add(escaped);
-        world.layers.changed(false);
+    if core::mem::take(&mut world.strays) {
+        disable_strays(world);
     }
     if switches.on(Effects::EVENTS) {
         note(world);
     }
     world.steps = world.steps.wrapping_add(1);
+}
+
+/// Bodies whose centre is beyond the limit leave the world.
+#[cold]
+fn disable_strays<S: Scalar>(world: &mut World<'_, S>) {
+    for &slot in world.layers.dynamics() {
+        let body = &mut world.bodies[usize::from(slot)];
+        if body.is_beyond_limit() {
+            body.position = body.position.map(|p| p.held(S::real(px(POSITION_LIMIT))));
+            body.status.disable();
+            world.escaped = world.escaped.saturating_add(1);
+        }
+    }
+    world.layers.changed(false);
 }
 
 /// Notes which contacts touch, and which did a step ago: two flags a contact are all that events are made of. If events were off

@@ -311,8 +311,8 @@ fn shock<S: Scalar>(world: &mut World<'_, S>) {
             (a, marks) = (bodies[usize::from(upper)].velocity, Marks::default());
         }
         let b = &mut bodies[usize::from(contact.b)];
+        let held = held(contact);
         if pushes {
-            let held = held(contact);
             marks.set(held);
             b.marks.set(held);
         }
@@ -328,17 +328,22 @@ fn shock<S: Scalar>(world: &mut World<'_, S>) {
         if !contact.flags.has(Flags::BEARS) || (contact.gap <= zero && a == b.velocity) {
             continue;
         }
-        let velocity = if S::is_tame(a, b.velocity, zero) {
-            contact.in_frame(b.velocity - a)
+        // As in `visit`, no sum of tame quantities leaves the format.
+        let (tame, ahead) = (S::is_tame(a, b.velocity, zero), contact.gap.greater(zero));
+        let short = if tame {
+            contact.in_frame(b.velocity - a).x + ahead
         } else {
-            wide_frame(contact, a, b.velocity)
+            wide_frame(contact, a, b.velocity).x.saturating_add(ahead)
         };
-        let short = velocity.x.saturating_add(contact.gap.greater(zero));
         if short < if pushes { adrift } else { zero } {
             let lift =
                 if contact.flags.has(Flags::AXIS) { short } else { S::over_slope(short, ground.depth(contact.normal)) };
-            ground.lower(&mut a, lift);
-            marks.set(held(contact).or(Marks::GROUNDED));
+            if tame {
+                ground.add(&mut a, lift);
+            } else {
+                ground.lower(&mut a, lift);
+            }
+            marks.set(held.or(Marks::GROUNDED));
         }
     }
     if upper != NONE {

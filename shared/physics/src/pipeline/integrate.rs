@@ -93,6 +93,7 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
             body.push = 0;
         }
         if body.advance(motion) {
+            world.strays |= body.is_beyond_limit();
             // What creeps is looked at once it has come somewhere.
             let crept = &mut world.crept[usize::from(slot)];
             *crept = crept.saturating_add(S::creep(motion));

@@ -40,6 +40,17 @@ impl Ground {
         if self.horizontal { v.y } else { v.x }
     }
 
+    /// Adds to the component towards the ground, which doesn't leave the format.
+    #[inline]
+    pub(crate) fn add<T: Quantity>(self, v: &mut Vec2<T>, by: T) {
+        let by = if self.reversed { -by } else { by };
+        if self.horizontal {
+            v.x = v.x + by;
+        } else {
+            v.y = v.y + by;
+        }
+    }
+
     /// Adds to the component towards the ground.
     #[inline]
     pub(crate) fn lower<T: Quantity>(self, v: &mut Vec2<T>, by: T) {

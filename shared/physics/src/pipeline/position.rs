@@ -28,11 +28,12 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
     let aim = if flat { slop } else { S::half_speed(slop) };
     world.deep = false;
     let (rest, most) = (S::ONE - bias, S::per_step(S::real(MOST)));
+    let mut pushed_anybody = false;
     for contact in world.pool.all() {
         if contact.flags.has(Flags::FAR) {
             continue;
         }
-        let pushed = pushed(contact, world.bodies, ground);
+        let pushed = if pushed_anybody { pushed(contact, world.bodies, ground) } else { S::Speed::ZERO };
         let depth = -(contact.gap + pushed);
         if depth <= slop {
             continue;
@@ -50,6 +51,8 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             let whole = flat || contact.flags.has(Flags::IMMOVABLE);
             part(contact, if whole { correction } else { correction.lesser(most) }, world.bodies, ground);
         }
+        pushed_anybody = true;
+        world.strays |= [contact.a, contact.b].iter().any(|&slot| world.bodies[usize::from(slot)].is_beyond_limit());
     }
 }
 

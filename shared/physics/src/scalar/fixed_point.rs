@@ -255,7 +255,7 @@ impl Scalar for Fixed {
             y = upper_half(y, factor) << 5;
         }
         let speed = speed.to_bits();
-        I8F24::from_bits(if speed.unsigned_abs() < 1 << 28 {
+        I8F24::from_bits(if speed.wrapping_add(1 << 28) as u32 >> 29 == 0 {
             upper_half(speed << 3, y) // nearly always
         } else {
             saturated(product(speed, y) >> 29)

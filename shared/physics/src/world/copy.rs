@@ -52,6 +52,7 @@ impl<S: Scalar> World<'_, S> {
             fastest,
             smallest,
             deep,
+            strays,
             speed_cap,
             used,
             free,
@@ -75,7 +76,8 @@ impl<S: Scalar> World<'_, S> {
         self.terrain = *terrain;
         (self.config, self.gravity, self.bounce_threshold, self.speed_cap) =
             (*config, *gravity, *bounce_threshold, *speed_cap);
-        (self.travel, self.fastest, self.smallest, self.deep) = (*travel, *fastest, *smallest, *deep);
+        (self.travel, self.fastest, self.smallest) = (*travel, *fastest, *smallest);
+        (self.deep, self.strays) = (*deep, *strays);
         (self.used, self.free, self.count) = (*used, *free, *count);
         (self.called_for, self.declared, self.declared_level) = (*called_for, *declared, *declared_level);
         (self.steps, self.told_at, self.stirred) = (*steps, *told_at, *stirred);
