@@ -9,6 +9,7 @@ use crate::error::{Error, Field, check, check_positive};
 use crate::material::Material;
 use crate::scalar::{Fixed, POSITION_LIMIT, Quantity, SPEED_LIMIT, STEP_HZ, Scalar, px};
 use crate::shape::Shape;
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 
 pub(crate) use profile::Profile;
@@ -140,6 +141,15 @@ impl<S: Scalar> BodyDef<S> {
         calls_for(self.one_way, Effects::ONE_WAY);
         calls_for(self.kind == Kind::Kinematic, Effects::KINEMATIC);
         effects
+    }
+
+    /// What this body is besides a box of mass 1 that feels the world's gravity.
+    pub fn variety(&self) -> Variety {
+        let is = |condition, what| if condition { what } else { Variety::BOXES };
+        let rigid = self.kind == Kind::Rigid;
+        is(matches!(self.shape, Shape::Circle { .. }), Variety::CIRCLES)
+            .and(is(rigid && self.mass != S::ONE, Variety::MASSES))
+            .and(is(rigid && self.gravity_scale != S::ONE, Variety::GRAVITY_SCALES))
     }
 }
 

@@ -3,7 +3,9 @@
 mod asleep;
 mod parted;
 
+use crate::effects::Switches;
 use crate::scalar::{Quantity, Scalar};
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 
 /// Two bodies that touch, overlap, or may do so within the next steps. The first is rigid; the second is below it or immovable.
@@ -143,10 +145,22 @@ impl<S: Scalar> Contact<S> {
         !self.flags.has(Flags::FAR) && (self.gap <= S::Speed::ZERO || self.impulse.x > S::Speed::ZERO)
     }
 
+    /// Whether the normal has a slope.
+    #[inline]
+    pub(crate) fn slopes(&self, switches: impl Switches) -> bool {
+        switches.variety().contain(Variety::CIRCLES) && !self.flags.has(Flags::AXIS)
+    }
+
+    /// Whether an impulse moves both bodies alike, if it moves both.
+    #[inline]
+    pub(crate) fn is_even(&self, switches: impl Switches) -> bool {
+        !switches.variety().contain(Variety::MASSES) || self.flags.has(Flags::EVEN)
+    }
+
     /// Components of a vector along the normal (x) and the normal turned by a quarter (y).
     #[inline]
-    pub(crate) fn in_frame(&self, v: Vec2<S::Speed>) -> Vec2<S::Speed> {
-        if !self.flags.has(Flags::AXIS) {
+    pub(crate) fn in_frame(&self, v: Vec2<S::Speed>, switches: impl Switches) -> Vec2<S::Speed> {
+        if self.slopes(switches) {
             return S::into_frame(v, self.normal);
         }
         match self.flags.axis() {
@@ -159,8 +173,8 @@ impl<S: Scalar> Contact<S> {
 
     /// The inverse of [`in_frame`](Self::in_frame).
     #[inline]
-    pub(crate) fn out_of_frame(&self, v: Vec2<S::Speed>) -> Vec2<S::Speed> {
-        if !self.flags.has(Flags::AXIS) {
+    pub(crate) fn out_of_frame(&self, v: Vec2<S::Speed>, switches: impl Switches) -> Vec2<S::Speed> {
+        if self.slopes(switches) {
             return S::out_of_frame(v, self.normal);
         }
         match self.flags.axis() {

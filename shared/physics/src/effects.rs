@@ -7,6 +7,7 @@ use core::fmt;
 use core::ops::BitOr;
 
 use crate::config::Level;
+use crate::variety::Variety;
 
 /// A set of effects.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,7 +106,7 @@ impl fmt::Display for Effects {
     }
 }
 
-/// Says which effects are on, and which levels of accuracy there are.
+/// Says which effects are on, and which levels of accuracy and bodies there are.
 pub trait Switches: Copy {
     /// All effects that are on.
     fn effects(self) -> Effects;
@@ -114,6 +115,12 @@ pub trait Switches: Copy {
     #[inline]
     fn level(self) -> Option<Level> {
         None
+    }
+
+    /// What bodies there may be. Worlds take all; this one compiles others out.
+    #[inline]
+    fn variety(self) -> Variety {
+        Variety::ALL
     }
 
     /// Whether the effect is on.
@@ -138,7 +145,8 @@ impl Switches for Effects {
 }
 
 /// Decided when compiled: `Only::<{ Effects::GRAVITY.bits() }>`. Code of other effects isn't linked; nor is that of other levels
-/// if the second parameter names one, such as `{ Level::Grounded as u8 }`.
+/// if the second parameter names one, such as `{ Level::Grounded as u8 }`; nor what only other bodies need than the third one
+/// says, such as `{ Variety::BOXES.bits() }`. [`World::declare`](crate::World::declare) makes sure that nothing is missed.
 ///
 /// Bits that stand for no effect don't compile:
 /// ```compile_fail
@@ -146,9 +154,9 @@ impl Switches for Effects {
 /// let effects = Only::<0x8000>.effects();
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Only<const BITS: u16, const LEVEL: u8 = { u8::MAX }>;
+pub struct Only<const BITS: u16, const LEVEL: u8 = { u8::MAX }, const VARIETY: u8 = { Variety::ALL.bits() }>;
 
-impl<const BITS: u16, const LEVEL: u8> Only<BITS, LEVEL> {
+impl<const BITS: u16, const LEVEL: u8, const VARIETY: u8> Only<BITS, LEVEL, VARIETY> {
     const EFFECTS: Effects = match Effects::from_bits(BITS) {
         Some(effects) => effects,
         None => panic!("a bit of the set stands for no effect"),
@@ -160,9 +168,13 @@ impl<const BITS: u16, const LEVEL: u8> Only<BITS, LEVEL> {
         u8::MAX => None,
         _ => panic!("the number stands for no level"),
     };
+    const VARIETY: Variety = match Variety::from_bits(VARIETY) {
+        Some(variety) => variety,
+        None => panic!("a bit of the variety stands for nothing"),
+    };
 }
 
-impl<const BITS: u16, const LEVEL: u8> Switches for Only<BITS, LEVEL> {
+impl<const BITS: u16, const LEVEL: u8, const VARIETY: u8> Switches for Only<BITS, LEVEL, VARIETY> {
     #[inline]
     fn effects(self) -> Effects {
         Self::EFFECTS
@@ -170,6 +182,10 @@ impl<const BITS: u16, const LEVEL: u8> Switches for Only<BITS, LEVEL> {
     #[inline]
     fn level(self) -> Option<Level> {
         Self::LEVEL
+    }
+    #[inline]
+    fn variety(self) -> Variety {
+        Self::VARIETY
     }
     #[inline]
     fn are_fixed(self) -> bool {

@@ -7,6 +7,7 @@ use crate::effects::Effects;
 use crate::handle::Handle;
 use crate::scalar::{Scalar, px};
 use crate::tiles::TileError;
+use crate::variety::Variety;
 
 /// Why a call was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +54,15 @@ pub enum Error<S: Scalar> {
         configured: Level,
         /// The declared one.
         declared: Level,
+    },
+    /// A body is of a kind that the world was [declared](crate::World::declare) to do without.
+    OtherVariety {
+        /// Its slot, or the one that it would get.
+        slot: u16,
+        /// What it is and is not declared.
+        missing: Variety,
+        /// What is.
+        declared: Variety,
     },
     /// A number is outside its range, or not a number.
     OutOfRange {
@@ -180,6 +190,10 @@ impl<S: Scalar> fmt::Display for Error<S> {
                     "the settings are for level {configured:?}, but only {declared:?} is declared: use one of them"
                 )
             }
+            Self::OtherVariety { slot, missing, declared } => write!(
+                f,
+                "the body in slot {slot} calls for {missing}, but only {declared} is declared: declare {missing} too, or do without"
+            ),
             Self::OutOfRange { field, value, range: (low, high) } => {
                 write!(f, "{field} is {value}, must be {low}..={high}")
             }

@@ -49,6 +49,7 @@ pub mod scalar;
 pub mod shape;
 pub mod step;
 pub mod tiles;
+pub mod variety;
 pub mod vec2;
 pub mod world;
 
@@ -66,5 +67,6 @@ pub use pipeline::scheduler::{Pace, Scheduler};
 pub use scalar::{Fixed, Quantity, Scalar};
 pub use shape::Shape;
 pub use step::{Stage, step};
+pub use variety::Variety;
 pub use vec2::{Vec2, vec2};
 pub use world::{BodyView, ContactView, Event, Phase, Statistics, Storage, World};

@@ -18,6 +18,7 @@ use crate::pipeline::broadphase::Layers;
 use crate::pipeline::sleep;
 use crate::scalar::{Quantity, Scalar};
 use crate::tiles::TileMap;
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 
 pub use events::{Event, Phase};
@@ -80,6 +81,8 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             called_for: Effects::NONE,
             declared: None,
             declared_level: None,
+            variety: Variety::BOXES,
+            declared_variety: Variety::ALL,
             steps: 0,
             told_at: None,
             stirred: false,
@@ -138,6 +141,9 @@ pub struct World<'a, S: Scalar> {
     pub(crate) called_for: Effects,
     declared: Option<Effects>,
     declared_level: Option<Level>,
+    /// What the bodies have been since the world was last empty.
+    pub(crate) variety: Variety,
+    declared_variety: Variety,
     pub(crate) steps: u32,
     /// The step after which events were last noted.
     pub(crate) told_at: Option<u32>,
@@ -163,7 +169,8 @@ impl<S: Scalar> World<'_, S> {
         self.layers.clear();
         (self.used, self.free, self.count) = (0, 0, 0);
         (self.called_for, self.declared, self.declared_level) = (Effects::NONE, None, None);
-        (self.told_at, self.stirred) = (None, false);
+        (self.variety, self.declared_variety) = (Variety::BOXES, Variety::ALL);
+        (self.told_at, self.stirred, self.strays) = (None, false, false);
         (self.steps, self.escaped, self.saturations) = (0, 0, 0);
         self.apply(Config::default());
     }
@@ -171,8 +178,8 @@ impl<S: Scalar> World<'_, S> {
     /// Adds a body.
     ///
     /// # Errors
-    /// What [`BodyDef::validate`] finds; [`Error::Full`] if all slots are taken; [`Error::Undeclared`] if the body calls for an
-    /// effect that was not [declared](Self::declare). Nothing changes then.
+    /// What [`BodyDef::validate`] finds; [`Error::Full`] if all slots are taken; [`Error::Undeclared`] or [`Error::OtherVariety`] if the
+    /// body calls for what was not [declared](Self::declare). Nothing changes then.
     pub fn spawn(&mut self, def: &BodyDef<S>) -> Result<Handle, Error<S>> {
         def.validate()?;
         let slot = if self.free != 0 {
@@ -182,7 +189,7 @@ impl<S: Scalar> World<'_, S> {
         } else {
             return Err(Error::Full { capacity: self.capacity() });
         };
-        self.call_for(slot, def.called_for())?;
+        self.call_for(slot, def.called_for(), def.variety())?;
         let profile = &mut self.profiles[usize::from(slot)];
         if self.free != 0 {
             self.free = profile.next_free;

@@ -8,6 +8,7 @@
 
 use crate::body::{Body, Marks, Profile};
 use crate::contact::{Contact, Flags};
+use crate::effects::Switches;
 use crate::scalar::{Quantity, Scalar};
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
@@ -16,7 +17,7 @@ use crate::world::World;
 const PASSES: usize = 4;
 
 /// Lets contacts bounce.
-pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed>) {
+pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed>, switches: impl Switches) {
     let threshold = threshold(world, gravity);
     // No two bodies approach each other faster than this.
     let closing = world.fastest.saturating_add(world.fastest).saturating_add(world.fastest);
@@ -34,7 +35,7 @@ pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed
             if pass > 0 && !jolted.has(Marks::JOLTED) {
                 return;
             }
-            let approach = approach(contact, bodies);
+            let approach = approach(contact, bodies, switches);
             if approach >= threshold {
                 bounced |= rebound(contact, approach, gravity, bodies, profiles);
             }
@@ -59,10 +60,10 @@ pub(crate) fn threshold<S: Scalar>(world: &World<'_, S>, gravity: Vec2<S::Speed>
 
 /// Speed at which a contact's bodies approach each other.
 #[inline]
-fn approach<S: Scalar>(contact: &Contact<S>, bodies: &[Body<S>]) -> S::Speed {
+fn approach<S: Scalar>(contact: &Contact<S>, bodies: &[Body<S>], switches: impl Switches) -> S::Speed {
     let (a, b) = (bodies[usize::from(contact.a)].velocity, bodies[usize::from(contact.b)].velocity);
     if S::is_tame(a, b, S::Speed::ZERO) {
-        -contact.in_frame(b - a).x
+        -contact.in_frame(b - a, switches).x
     } else {
         -S::speed_along(b.saturating_sub(a), contact.normal)
     }

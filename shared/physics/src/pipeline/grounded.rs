@@ -23,16 +23,15 @@ use crate::world::World;
 
 /// Solves all contacts for velocities.
 pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    let friction = switches.on(Effects::FRICTION);
-    warm_start(world, friction);
+    warm_start(world, switches);
     for _ in 0..world.config.velocity_iterations {
         let mut changed = false;
-        for_each_live(world, |contact, a, b| changed |= visit(contact, a, b, friction));
+        for_each_live(world, |contact, a, b| changed |= visit(contact, a, b, switches));
         if !changed {
             break; // what is left is for the next step
         }
     }
-    shock(world);
+    shock(world, switches);
 }
 
 /// The resolution of fixed-point positions, in a step.
@@ -70,7 +69,8 @@ fn for_each_live<S: Scalar>(
 
 /// Applies the impulses of the last step, from the top down. Deeply pressed contacts start with half of theirs: after a crush,
 /// bodies would shoot out.
-fn warm_start<S: Scalar>(world: &mut World<'_, S>, friction: bool) {
+fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let friction = switches.on(Effects::FRICTION);
     let ground = world.layers.ground();
     let crushed = S::per_step(S::real(px(-1)));
     let World { pool, bodies, before, .. } = world;
@@ -85,7 +85,7 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, friction: bool) {
         if contact.a != upper {
             let next = contact.a;
             if upper != NONE {
-                hand_down(contacts, bearing, &mut a, bodies, before, ground);
+                hand_down(contacts, bearing, &mut a, bodies, before, ground, switches);
                 bodies[usize::from(upper)].velocity = a;
             }
             upper = next;
@@ -107,13 +107,13 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, friction: bool) {
         let b = &mut bodies[usize::from(contact.b)].velocity;
         let change = contact.impulse;
         (a, *b) = if S::is_tame(a, *b, change.x) {
-            pushed_apart(contact, change, a, *b)
+            pushed_apart(contact, change, a, *b, switches)
         } else {
             pushed_apart_widely(contact, change, a, *b)
         };
     }
     if upper != NONE {
-        hand_down(contacts, bearing, &mut a, bodies, before, ground);
+        hand_down(contacts, bearing, &mut a, bodies, before, ground, switches);
         bodies[usize::from(upper)].velocity = a;
     }
 }
@@ -136,18 +136,19 @@ fn hand_down<S: Scalar>(
     bodies: &mut [Body<S>],
     before: &[Vec2<S::Speed>],
     ground: Ground,
+    switches: impl Switches,
 ) {
     let Bearing::One(place) = bearing else { return };
     let contact = &mut contacts[place];
     let stood = bodies[usize::from(contact.a)].marks.has(Marks::STOOD);
-    if !stood || contact.impulse.x <= S::Speed::ZERO || !contact.flags.has(Flags::AXIS) {
+    if !stood || contact.impulse.x <= S::Speed::ZERO || contact.slopes(switches) {
         return;
     }
     let lower = usize::from(contact.b);
     let b = &mut bodies[lower].velocity;
     let firm = if contact.flags.has(Flags::IMMOVABLE) { *b } else { before[lower] };
     if !S::is_nearly_same(*a, firm) {
-        (*a, *b) = hand(contact, ground.depth(firm), ground, *a, *b);
+        (*a, *b) = hand(contact, ground.depth(firm), ground, *a, *b, switches);
     }
 }
 
@@ -160,6 +161,7 @@ fn hand<S: Scalar>(
     ground: Ground,
     a: Vec2<S::Speed>,
     b: Vec2<S::Speed>,
+    switches: impl Switches,
 ) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
     let zero = S::Speed::ZERO;
     // What little the lower one moved is noise, which mustn't travel up and down.
@@ -170,7 +172,7 @@ fn hand<S: Scalar>(
     }
     let change = if contact.flags.has(Flags::IMMOVABLE) {
         excess
-    } else if contact.flags.has(Flags::EVEN) {
+    } else if contact.is_even(switches) {
         excess.saturating_add(excess)
     } else {
         S::over_share(excess, contact.share)
@@ -182,18 +184,23 @@ fn hand<S: Scalar>(
 
 /// Changes the velocities as a contact calls for; whether so much that positions may show it.
 #[inline(always)] // into the loop over contacts
-fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Vec2<S::Speed>, friction: bool) -> bool {
+fn visit<S: Scalar>(
+    contact: &mut Contact<S>,
+    a: &mut Vec2<S::Speed>,
+    b: &mut Vec2<S::Speed>,
+    switches: impl Switches,
+) -> bool {
     let zero = S::Speed::ZERO;
     let pushed = contact.impulse;
     if S::is_nearly_same(*a, *b) && (contact.gap <= zero || pushed.x == zero) {
         return false; // most contacts at rest
     }
     if !S::is_tame(*a, *b, pushed.x) {
-        (*a, *b) = visit_widely(contact, *a, *b, friction);
+        (*a, *b) = visit_widely(contact, *a, *b, switches.on(Effects::FRICTION));
         return true;
     }
     // Tame speeds are below 23 px/step, tame impulses below 32, gaps at most 100: no sum here leaves the format.
-    let velocity = contact.in_frame(*b - *a);
+    let velocity = contact.in_frame(*b - *a, switches);
     let short = velocity.x + contact.gap.greater(zero);
     if short >= zero && pushed.x == zero {
         return false;
@@ -201,7 +208,7 @@ fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Ve
     let mut change = vec2((-short).greater(-pushed.x), zero);
     let along_normal = pushed.x + change.x;
     let mut along_tangent = pushed.y;
-    if friction && contact.friction > 0 {
+    if switches.on(Effects::FRICTION) && contact.friction > 0 {
         along_tangent = (pushed.y - velocity.y).held(S::coulomb(along_normal, contact.friction));
         change.y = along_tangent - pushed.y;
     }
@@ -209,7 +216,7 @@ fn visit<S: Scalar>(contact: &mut Contact<S>, a: &mut Vec2<S::Speed>, b: &mut Ve
         return false;
     }
     contact.impulse = vec2(along_normal, along_tangent);
-    (*a, *b) = pushed_apart(contact, change, *a, *b);
+    (*a, *b) = pushed_apart(contact, change, *a, *b, switches);
     !change.x.is_within(resolution::<S>())
 }
 
@@ -220,11 +227,12 @@ fn pushed_apart<S: Scalar>(
     change: Vec2<S::Speed>,
     a: Vec2<S::Speed>,
     b: Vec2<S::Speed>,
+    switches: impl Switches,
 ) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
-    let change = contact.out_of_frame(change);
+    let change = contact.out_of_frame(change, switches);
     if contact.flags.has(Flags::IMMOVABLE) {
         (a - change, b)
-    } else if contact.flags.has(Flags::EVEN) {
+    } else if contact.is_even(switches) {
         let half = change.map(S::half_speed);
         (a - half, b + half)
     } else {
@@ -287,7 +295,7 @@ fn pushed_apart_widely<S: Scalar>(
 
 /// From the ground up: whoever stands on firm ground stops at what it stands on. Notes on the way which bodies are held, and
 /// which are grounded.
-fn shock<S: Scalar>(world: &mut World<'_, S>) {
+fn shock<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let ground = world.layers.ground();
     let (zero, graze) = (S::Speed::ZERO, S::per_step(S::real(GRAZE)));
     // What parts so slowly hasn't parted.
@@ -311,7 +319,7 @@ fn shock<S: Scalar>(world: &mut World<'_, S>) {
             (a, marks) = (bodies[usize::from(upper)].velocity, Marks::default());
         }
         let b = &mut bodies[usize::from(contact.b)];
-        let held = held(contact);
+        let held = held(contact, switches);
         if pushes {
             marks.set(held);
             b.marks.set(held);
@@ -331,13 +339,13 @@ fn shock<S: Scalar>(world: &mut World<'_, S>) {
         // As in `visit`, no sum of tame quantities leaves the format.
         let (tame, ahead) = (S::is_tame(a, b.velocity, zero), contact.gap.greater(zero));
         let short = if tame {
-            contact.in_frame(b.velocity - a).x + ahead
+            contact.in_frame(b.velocity - a, switches).x + ahead
         } else {
             wide_frame(contact, a, b.velocity).x.saturating_add(ahead)
         };
         if short < if pushes { adrift } else { zero } {
             let lift =
-                if contact.flags.has(Flags::AXIS) { short } else { S::over_slope(short, ground.depth(contact.normal)) };
+                if contact.slopes(switches) { S::over_slope(short, ground.depth(contact.normal)) } else { short };
             if tame {
                 ground.add(&mut a, lift);
             } else {
@@ -359,8 +367,8 @@ fn settle<S: Scalar>(body: &mut Body<S>, velocity: Vec2<S::Speed>, marks: Marks)
 
 /// The axes along which a contact pushes.
 #[inline]
-fn held<S: Scalar>(contact: &Contact<S>) -> Marks {
-    if !contact.flags.has(Flags::AXIS) {
+fn held<S: Scalar>(contact: &Contact<S>, switches: impl Switches) -> Marks {
+    if contact.slopes(switches) {
         return Marks::HELD_X.or(Marks::HELD_Y);
     }
     match contact.flags.axis() {

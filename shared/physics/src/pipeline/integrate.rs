@@ -9,6 +9,7 @@ use crate::config::Level;
 use crate::effects::{Effects, Switches};
 use crate::pipeline::bounce;
 use crate::scalar::{Quantity, Scalar};
+use crate::variety::Variety;
 use crate::vec2::Vec2;
 use crate::world::World;
 
@@ -25,11 +26,11 @@ pub(crate) fn gravity<S: Scalar>(world: &World<'_, S>, switches: impl Switches) 
 pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let gravity = gravity(world, switches);
     if switches.on(Effects::BOUNCE) && world.level(switches) != Level::Flat {
-        bounce::bounce(world, gravity);
+        bounce::bounce(world, gravity, switches);
     }
     let (damping, cap) = (world.config.damping, world.speed_cap);
     let below_cap = S::half_speed(cap); // along both axes: most need no root
-    let pulls = gravity != Vec2::default();
+    let scaled = switches.variety().contain(Variety::GRAVITY_SCALES) && world.variety.contain(Variety::GRAVITY_SCALES);
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
         let before = body.velocity;
@@ -48,10 +49,14 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
         if !body.status.is_rigid() {
             continue;
         }
-        if pulls {
-            let scale = world.profiles[usize::from(slot)].gravity_scale;
-            let pull = if scale == S::ONE { gravity } else { gravity.map(|g| S::speed_scaled(g, scale)) };
-            velocity = velocity.saturating_add(pull);
+        let scale = if scaled { world.profiles[usize::from(slot)].gravity_scale } else { S::ONE };
+        let pull = |g| if scale == S::ONE { g } else { S::speed_scaled(g, scale) };
+        // Most gravity pulls along one axis.
+        if gravity.x != S::Speed::ZERO {
+            velocity.x = velocity.x.saturating_add(pull(gravity.x));
+        }
+        if gravity.y != S::Speed::ZERO {
+            velocity.y = velocity.y.saturating_add(pull(gravity.y));
         }
         if switches.on(Effects::DAMPING) {
             velocity = velocity.map(|v| S::speed_scaled(v, damping));

@@ -60,6 +60,8 @@ impl<S: Scalar> World<'_, S> {
             called_for,
             declared,
             declared_level,
+            variety,
+            declared_variety,
             steps,
             told_at,
             stirred,
@@ -80,6 +82,7 @@ impl<S: Scalar> World<'_, S> {
         (self.deep, self.strays) = (*deep, *strays);
         (self.used, self.free, self.count) = (*used, *free, *count);
         (self.called_for, self.declared, self.declared_level) = (*called_for, *declared, *declared_level);
+        (self.variety, self.declared_variety) = (*variety, *declared_variety);
         (self.steps, self.told_at, self.stirred) = (*steps, *told_at, *stirred);
         (self.escaped, self.saturations) = (*escaped, *saturations);
         Ok(())

@@ -9,6 +9,7 @@ use crate::config::{Config, Level};
 use crate::effects::{Effects, Switches};
 use crate::error::Error;
 use crate::scalar::Scalar;
+use crate::variety::Variety;
 use crate::vec2::Vec2;
 
 impl<S: Scalar> Config<S> {
@@ -34,8 +35,8 @@ impl<S: Scalar> World<'_, S> {
         self.called_for | self.config.called_for()
     }
 
-    /// Promises that nothing but these effects, and this level if there is one, will be called for: what does is refused from now on, until
-    /// [`clear`](Self::clear). Undeclared worlds take everything.
+    /// Promises that nothing but these effects, this level if there is one, and these bodies will be called for: what does is refused
+    /// from now on, until [`clear`](Self::clear). Undeclared worlds take everything.
     ///
     /// ```
     /// use flat_physics::{BodyDef, Effects, Fixed, Material, Only, Shape, Storage, scalar::{px, ratio}, step, vec2};
@@ -56,27 +57,31 @@ impl<S: Scalar> World<'_, S> {
     ///
     /// # Errors
     /// [`Error::Undeclared`] if something calls for more already, [`Error::OtherLevel`] if the switches have one level and the
-    /// settings another. Nothing is declared then.
+    /// settings another, [`Error::OtherVariety`] if there is a body of another kind. Nothing is declared then.
     pub fn declare(&mut self, switches: impl Switches) -> Result<(), Error<S>> {
         let effects = switches.effects();
         if let Some(declared) = switches.level() {
             Self::check_level(self.config.level, declared)?;
         }
         Self::check(None, self.config.called_for(), effects)?;
-        let mut called_for = Effects::NONE;
+        let (mut called_for, mut present) = (Effects::NONE, Variety::BOXES);
         for (slot, body) in self.slots_from(0) {
-            let calls = BodyDef::of(body, &self.profiles[usize::from(slot)]).called_for();
+            let def = BodyDef::of(body, &self.profiles[usize::from(slot)]);
+            let (calls, variety) = (def.called_for(), def.variety());
             Self::check(Some(slot), calls, effects)?;
-            called_for = called_for | calls;
+            Self::check_variety(slot, variety, switches.variety())?;
+            (called_for, present) = (called_for | calls, present.and(variety));
         }
+        (self.variety, self.declared_variety) = (present, switches.variety());
         (self.called_for, self.declared, self.declared_level) = (called_for, Some(effects), switches.level());
         Ok(())
     }
 
     /// Notes what a body calls for, if that is declared.
-    pub(super) fn call_for(&mut self, slot: u16, effects: Effects) -> Result<(), Error<S>> {
+    pub(super) fn call_for(&mut self, slot: u16, effects: Effects, variety: Variety) -> Result<(), Error<S>> {
         self.check_declared(Some(slot), effects)?;
-        self.called_for = self.called_for | effects;
+        Self::check_variety(slot, variety, self.declared_variety)?;
+        (self.called_for, self.variety) = (self.called_for | effects, self.variety.and(variety));
         Ok(())
     }
 
@@ -87,6 +92,11 @@ impl<S: Scalar> World<'_, S> {
 
     pub(super) fn check_level(configured: Level, declared: Level) -> Result<(), Error<S>> {
         if configured == declared { Ok(()) } else { Err(Error::OtherLevel { configured, declared }) }
+    }
+
+    fn check_variety(slot: u16, variety: Variety, declared: Variety) -> Result<(), Error<S>> {
+        let missing = variety.without(declared);
+        if missing == Variety::BOXES { Ok(()) } else { Err(Error::OtherVariety { slot, missing, declared }) }
     }
 
     fn check(slot: Option<u16>, effects: Effects, declared: Effects) -> Result<(), Error<S>> {

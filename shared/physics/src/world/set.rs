@@ -4,7 +4,7 @@
 //! has changed. Each wakes the body.
 
 use super::World;
-use crate::body::{self, Kind, Marks, Status};
+use crate::body::{self, BodyDef, Kind, Marks, Status};
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::Handle;
@@ -12,6 +12,7 @@ use crate::material::Material;
 use crate::pipeline::pairs;
 use crate::scalar::Scalar;
 use crate::shape::Shape;
+use crate::variety::Variety;
 use crate::vec2::Vec2;
 
 impl<S: Scalar> World<'_, S> {
@@ -44,16 +45,15 @@ impl<S: Scalar> World<'_, S> {
     /// Changes what moves a body. A body that becomes static stops. Its contacts end; those that it still has begin anew.
     ///
     /// # Errors
-    /// [`Error::NoSuchBody`]; [`Error::Undeclared`].
+    /// [`Error::NoSuchBody`]; [`Error::Undeclared`]; [`Error::OtherVariety`].
     pub fn set_kind(&mut self, handle: Handle, kind: Kind) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
         let was = self.bodies[slot].status.kind();
         if kind == was {
             return Ok(());
         }
-        if kind == Kind::Kinematic {
-            self.call_for(handle.slot, Effects::KINEMATIC)?;
-        }
+        let def = BodyDef { kind, ..BodyDef::of(&self.bodies[slot], &self.profiles[slot]) };
+        self.call_for(handle.slot, def.called_for(), def.variety())?;
         self.part_contacts(handle.slot);
         let body = &mut self.bodies[slot];
         body.status.set_kind(kind);
@@ -70,13 +70,15 @@ impl<S: Scalar> World<'_, S> {
     /// Gives a body another shape around the same centre.
     ///
     /// # Errors
-    /// [`Error::NoSuchBody`]; [`Error::OutOfRange`] or [`Error::NotPositive`].
+    /// [`Error::NoSuchBody`]; [`Error::OutOfRange`] or [`Error::NotPositive`]; [`Error::OtherVariety`].
     pub fn set_shape(&mut self, handle: Handle, shape: Shape<S>) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
         shape.validate()?;
+        let round = matches!(shape, Shape::Circle { .. });
+        self.turn_into(handle.slot, round, Variety::CIRCLES)?;
         let body = &mut self.bodies[slot];
         body.half = shape.half_extents();
-        body.status.set(Status::CIRCLE, matches!(shape, Shape::Circle { .. }));
+        body.status.set(Status::CIRCLE, round);
         let is_static = body.status.is_static();
         self.changed(is_static);
         self.disturb(handle.slot);
@@ -86,10 +88,11 @@ impl<S: Scalar> World<'_, S> {
     /// Sets a body's mass. Only rigid bodies make use of it.
     ///
     /// # Errors
-    /// [`Error::NoSuchBody`]; [`Error::OutOfRange`] or [`Error::NotPositive`].
+    /// [`Error::NoSuchBody`]; [`Error::OutOfRange`] or [`Error::NotPositive`]; [`Error::OtherVariety`].
     pub fn set_mass(&mut self, handle: Handle, mass: S::Real) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
         body::check_mass(mass)?;
+        self.turn_into(handle.slot, mass != S::ONE && self.bodies[slot].status.is_rigid(), Variety::MASSES)?;
         self.profiles[slot].mass = mass;
         self.redefined(handle.slot);
         Ok(())
@@ -98,10 +101,11 @@ impl<S: Scalar> World<'_, S> {
     /// Sets which multiple of gravity a rigid body feels.
     ///
     /// # Errors
-    /// [`Error::NoSuchBody`]; [`Error::OutOfRange`].
+    /// [`Error::NoSuchBody`]; [`Error::OutOfRange`]; [`Error::OtherVariety`].
     pub fn set_gravity_scale(&mut self, handle: Handle, scale: S::Real) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
         body::check_gravity_scale(scale)?;
+        self.turn_into(handle.slot, scale != S::ONE && self.bodies[slot].status.is_rigid(), Variety::GRAVITY_SCALES)?;
         self.profiles[slot].gravity_scale = scale;
         self.disturb(handle.slot);
         Ok(())
@@ -114,7 +118,7 @@ impl<S: Scalar> World<'_, S> {
     pub fn set_material(&mut self, handle: Handle, material: Material<S>) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
         material.validate()?;
-        self.call_for(handle.slot, material.called_for())?;
+        self.call_for(handle.slot, material.called_for(), Variety::BOXES)?;
         self.profiles[slot].set_material(&material);
         self.redefined(handle.slot);
         Ok(())
@@ -222,10 +226,15 @@ impl<S: Scalar> World<'_, S> {
         Ok(())
     }
 
+    /// Notes what a body is from now on, if that is declared.
+    fn turn_into(&mut self, slot: u16, is: bool, what: Variety) -> Result<(), Error<S>> {
+        self.call_for(slot, Effects::NONE, if is { what } else { Variety::BOXES })
+    }
+
     fn set_status(&mut self, handle: Handle, bit: u8, on: bool, calls_for: Effects) -> Result<(), Error<S>> {
         let slot = self.slot(handle)?;
         if on {
-            self.call_for(handle.slot, calls_for)?;
+            self.call_for(handle.slot, calls_for, Variety::BOXES)?;
         }
         self.bodies[slot].status.set(bit, on);
         self.disturb(handle.slot);

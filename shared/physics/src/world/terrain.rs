@@ -10,6 +10,7 @@ use crate::material::Material;
 use crate::scalar::Scalar;
 use crate::shape::Shape;
 use crate::tiles::{BehaviorLayer, TileFlags, TileMap};
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 
 /// No slot: a world without tiles.
@@ -75,7 +76,7 @@ impl<S: Scalar> World<'_, S> {
             core::mem::swap(&mut self.tiles, &mut tiles);
         }
         let handle = self.spawn(&def)?;
-        self.call_for(handle.slot, effects)?;
+        self.call_for(handle.slot, effects, Variety::BOXES)?;
         self.terrain = handle.slot;
         self.wake_all();
         Ok(handle)
