@@ -174,6 +174,8 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn is_negligible(change: Vec2<Self::Speed>) -> bool;
     /// Whether the difference of two velocities is [negligible](Self::is_negligible), tame or not.
     fn is_nearly_same(a: Vec2<Self::Speed>, b: Vec2<Self::Speed>) -> bool;
+    /// Whether two velocities differ by at most 2^-15 px/step (0.002 px/s) along both axes.
+    fn is_at_rest(a: Vec2<Self::Speed>, b: Vec2<Self::Speed>) -> bool;
     /// Components of a tame vector along a unit normal (x) and along the normal turned by a quarter (y). Each product is rounded
     /// down to the format's resolution.
     fn into_frame(vector: Vec2<Self::Speed>, normal: Vec2<Self::Unit>) -> Vec2<Self::Speed>;

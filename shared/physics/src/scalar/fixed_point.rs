@@ -215,6 +215,12 @@ impl Scalar for Fixed {
         Self::is_negligible(vec2(b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y)))
     }
     #[inline]
+    fn is_at_rest(a: Vec2<I8F24>, b: Vec2<I8F24>) -> bool {
+        const LEAST: i32 = 1 << 9;
+        let shifted = |a: I8F24, b: I8F24| b.to_bits().wrapping_sub(a.to_bits()).wrapping_add(LEAST);
+        ((shifted(a.x, b.x) | shifted(a.y, b.y)) as u32) >> 10 == 0
+    }
+    #[inline]
     fn into_frame(vector: Vec2<I8F24>, normal: Vec2<I2F30>) -> Vec2<I8F24> {
         // Two bits to the left, and the upper half of a product with 2^30 is a product with 1.
         let (x, y) = (vector.x.to_bits() << 2, vector.y.to_bits() << 2);

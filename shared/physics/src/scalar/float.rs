@@ -110,6 +110,12 @@ macro_rules! float_scalar {
                 vec2(vector.x * normal.x + vector.y * normal.y, vector.y * normal.x - vector.x * normal.y)
             }
             #[inline]
+            fn is_at_rest(a: Vec2<$float>, b: Vec2<$float>) -> bool {
+                const LEAST: $float = 1.0 / 32_768.0;
+                let apart = b - a;
+                apart.x.abs() <= LEAST && apart.y.abs() <= LEAST
+            }
+            #[inline]
             fn out_of_frame(vector: Vec2<$float>, normal: Vec2<$float>) -> Vec2<$float> {
                 vec2(vector.x * normal.x - vector.y * normal.y, vector.x * normal.y + vector.y * normal.x)
             }
