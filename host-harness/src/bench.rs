@@ -91,7 +91,7 @@ impl Bench {
                 (Some(client), identity)
             };
             terminal::print_target(&identity);
-            if image::sources(&identity.build) != ours.build {
+            if !image::is_of_sources(&identity.build, &ours.build) {
                 terminal::warn_other_build(&identity, &ours.build);
             }
             self.identities.push(identity);

@@ -88,7 +88,7 @@ pub fn run(arguments: &FlashArgs) -> Result<(), Error> {
         ));
     }
     if arguments.monitor {
-        let target = Target::Serial { path: port, baud: flat_wire::BAUD };
+        let target = Target::Serial { path: port, baud: image::baud()? };
         return monitor::watch(&target, Some(elf));
     }
     Ok(())

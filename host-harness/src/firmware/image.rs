@@ -1,19 +1,27 @@
 //! Builds the firmware for a board.
 
+use std::env;
 use std::fmt;
-use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
 use clap::{Args, ValueEnum};
 
 use super::esp32::{self, XTENSA_TARGET};
+use super::product::Turn;
 use super::toolchain::{RISCV_TARGET, Toolchain};
 use super::{subprocess, workspace};
 use crate::error::Error;
 
 /// The profile in the root manifest that device images are built with.
 const PROFILE: &str = "firmware";
+
+/// What `.cargo/config.toml` says of `DEFMT_LOG`, and what else is a word.
+const USUAL_LOGS: &str = "info";
+const LOG_LEVELS: [&str; 5] = ["off", "error", "warn", "debug", "trace"];
+/// Bytes of a build's name in the protocol, and how many digits of it identify the sources at least.
+const LONGEST_NAME: usize = 32;
+const LEAST_DIGITS: usize = 8;
 
 /// A board that the firmware runs on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -88,6 +96,8 @@ impl Build {
         Self { provoke: false, usb: false, second_core: false, rtt: false, bare: false, tests: false };
     /// The same for trials.
     pub const PROVOKE: Self = Self { provoke: true, ..Self::PRODUCT };
+    /// A product for the ESP32-C3's own USB port.
+    pub const USB: Self = Self { usb: true, ..Self::PRODUCT };
     /// A device that only talks.
     pub const BARE: Self = Self { bare: true, ..Self::PRODUCT };
     /// The unit tests.
@@ -103,10 +113,48 @@ impl Build {
     }
 
     /// What its images' names end in: a word each, since a dash stands between them.
-    fn suffix(self) -> String {
+    fn suffix(self, environment: &Environment) -> String {
         let features = self.features().chain(self.bare.then_some("bare"));
-        features.fold(String::new(), |suffix, feature| suffix + "-" + feature.rsplit('-').next().unwrap_or(feature))
+        let words = features.map(|feature| feature.rsplit('-').next().unwrap_or(feature).to_owned());
+        words.chain(environment.words()).fold(String::new(), |suffix, word| suffix + "-" + &word)
     }
+}
+
+/// What variables of the environment change in an image.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Environment {
+    /// `FLAT_BAUD`: UART0's rate; none = the usual one.
+    baud: Option<String>,
+    /// `DEFMT_LOG`: the logs that are compiled in; none = those of `.cargo/config.toml`.
+    logs: Option<String>,
+}
+
+impl Environment {
+    fn read() -> Self {
+        let other_than = |name: &str, usual: &str| env::var(name).ok().filter(|value| value != usual);
+        Self { baud: other_than("FLAT_BAUD", &flat_wire::BAUD.to_string()), logs: other_than("DEFMT_LOG", USUAL_LOGS) }
+    }
+
+    /// A word for each that isn't as usual. A filter is no word: a hash stands for it.
+    fn words(&self) -> impl Iterator<Item = String> {
+        let logs = self.logs.as_ref().map(|filter| {
+            if LOG_LEVELS.contains(&&**filter) {
+                filter.clone()
+            } else {
+                format!("{:04x}", workspace::hash(filter.as_bytes()) & 0xffff)
+            }
+        });
+        self.baud.clone().into_iter().chain(logs)
+    }
+}
+
+/// The rate of UART0 in images that are built now.
+///
+/// # Errors
+/// If `FLAT_BAUD` is no number.
+pub fn baud() -> Result<u32, Error> {
+    let Some(baud) = Environment::read().baud else { return Ok(flat_wire::BAUD) };
+    baud.parse().map_err(|_| Error::usage(format!("FLAT_BAUD is `{baud}`, not a number of baud"), "FLAT_BAUD=115200"))
 }
 
 /// Builds the firmware for a board and returns its image; next to no work if it is up to date.
@@ -127,26 +175,32 @@ pub fn build_as(board: Board, kind: Build) -> Result<PathBuf, Error> {
         Board::Esp32 => esp32::cargo("build")?,
     };
     choose(board, kind, &mut cargo)?;
-    let name = format!("{board}{}", kind.suffix());
+    let name = format!("{board}{}", kind.suffix(&Environment::read()));
+    let turn = turn()?;
     subprocess::run(&format!("building the {name} firmware"), &mut cargo)?;
-
-    // All boards' images leave the build under one name: each gets a place of its own.
-    let built = workspace::target_dir()?.join("firmware").join(board.target()).join(PROFILE).join("flat-firmware");
+    let built = directory()?.join(board.target()).join(PROFILE).join("flat-firmware");
     let image = path(&name)?;
-    let partial = image.with_extension("partial");
-    // The rename replaces the image in one go, under an emulator that may still be reading the old one.
-    fs::create_dir_all(image.with_file_name(""))
-        .and_then(|()| fs::copy(&built, &partial))
-        .and_then(|_| fs::rename(&partial, &image))
-        .map_err(|error| {
-            Error::target(format!("cannot copy {} to {}: {error}", built.display(), image.display()), "")
-        })?;
+    turn.keep(&built, &image)?;
     Ok(image)
 }
 
-/// The part of a build's name that identifies its sources.
-pub fn sources(build: &str) -> &str {
-    build.split('-').next().unwrap_or(build)
+/// Waits for the turn to build firmware.
+///
+/// # Errors
+/// As [`Turn::wait`].
+pub fn turn() -> Result<Turn, Error> {
+    Turn::wait(&directory()?)
+}
+
+/// Cargo's target directory for the boards.
+fn directory() -> Result<PathBuf, Error> {
+    Ok(workspace::target_dir()?.join("firmware"))
+}
+
+/// Whether a build is of the sources with this id.
+pub fn is_of_sources(build: &str, id: &str) -> bool {
+    let digits = build.split('-').next().unwrap_or(build);
+    digits.len() >= LEAST_DIGITS && id.starts_with(digits)
 }
 
 /// Where the image of a board that says of itself to be of this build is, if it was built here.
@@ -159,7 +213,7 @@ pub fn of(board: &str, build: &str) -> Result<PathBuf, Error> {
 }
 
 fn path(name: &str) -> Result<PathBuf, Error> {
-    Ok(workspace::target_dir()?.join("firmware/images").join(format!("{name}.elf")))
+    Ok(directory()?.join("images").join(format!("{name}.elf")))
 }
 
 /// Chooses package, profile and features in a cargo call, and tells the firmware its build id.
@@ -177,12 +231,25 @@ pub fn choose(board: Board, kind: Build, cargo: &mut Command) -> Result<(), Erro
         cargo.arg("--no-default-features");
     }
     // Another image of the same sources: what reads its logs mustn't take it for this one.
-    cargo.env("FLAT_BUILD", workspace::build_id()? + &kind.suffix());
+    cargo.env("FLAT_BUILD", build_name(&workspace::build_id()?, &kind.suffix(&Environment::read()))?);
     Ok(())
+}
+
+/// A build's name: as many digits of its sources' id as there is room for, and what it was built for.
+fn build_name(id: &str, suffix: &str) -> Result<String, Error> {
+    match LONGEST_NAME.checked_sub(suffix.len()) {
+        Some(digits) if digits >= LEAST_DIGITS => Ok(id[..digits.min(id.len())].to_owned() + suffix),
+        _ => Err(Error::usage(
+            format!("a build's name has {LONGEST_NAME} bytes, too few for `{suffix}`"),
+            "leave some of its switches out",
+        )),
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
@@ -202,8 +269,25 @@ mod tests {
 
     #[test]
     fn what_an_image_is_built_for_ends_its_name() {
-        assert_eq!(Build::PRODUCT.suffix(), "");
-        assert_eq!(Build { usb: true, bare: true, ..Build::PROVOKE }.suffix(), "-usb-provoke-bare");
-        assert_eq!(sources("0123-usb-provoke"), "0123");
+        let usual = Environment::default();
+        assert_eq!(Build::PRODUCT.suffix(&usual), "");
+        let other = Build { usb: true, bare: true, ..Build::PROVOKE };
+        assert_eq!(other.suffix(&usual), "-usb-provoke-bare");
+        let environment = |baud: &str, logs: &str| Environment { baud: Some(baud.into()), logs: Some(logs.into()) };
+        assert_eq!(Build::BARE.suffix(&environment("115200", "debug")), "-bare-115200-debug");
+        assert_eq!(Build::BARE.suffix(&environment("9600", "info,flat=trace")), "-bare-9600-8b78");
+    }
+
+    #[test]
+    fn a_build_is_of_its_sources_however_many_of_their_digits_its_name_has_room_for() {
+        const ID: &str = "0123456789abcdef";
+        for (suffix, expected) in
+            [("", ID), ("-usb", "0123456789abcdef-usb"), ("-usb-rtt-provoke-bare", "0123456789a-usb-rtt-provoke-bare")]
+        {
+            let name = build_name(ID, suffix).unwrap();
+            assert_eq!(name, expected);
+            assert!(is_of_sources(&name, ID) && !is_of_sources(&name, "0123456fffffffff"), "{name}");
+        }
+        assert!(build_name(ID, "-usb-rtt-provoke-bare-115200").is_err());
     }
 }

@@ -19,6 +19,7 @@ pub mod instructions;
 pub mod logs;
 pub mod memory;
 pub mod operation;
+pub mod product;
 pub mod provision;
 pub mod references;
 pub mod subprocess;

@@ -113,6 +113,13 @@ pub fn entries(directory: &Path) -> Result<Vec<OsString>, Error> {
     Ok(names)
 }
 
+/// A short name for any text.
+pub fn hash(text: &[u8]) -> u64 {
+    let mut hash = Fnv1a::new();
+    hash.add(text);
+    hash.0
+}
+
 /// The 64-bit hash of Fowler, Noll and Vo, variant 1a: no defence against malice, plenty against a stale image.
 struct Fnv1a(u64);
 
@@ -134,11 +141,6 @@ mod tests {
 
     #[test]
     fn fnv_matches_its_published_vectors() {
-        let hash = |bytes: &[u8]| {
-            let mut hash = Fnv1a::new();
-            hash.add(bytes);
-            hash.0
-        };
         assert_eq!(hash(b"a"), 0xaf63_dc4c_8601_ec8c);
         assert_eq!(hash(b"foobar"), 0x8594_4171_f739_67e8);
     }

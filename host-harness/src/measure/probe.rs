@@ -10,9 +10,8 @@ use object::read::elf::ElfFile32;
 use object::{LittleEndian, Object, ObjectSegment};
 
 use crate::error::Error;
-use crate::firmware::subprocess;
 use crate::firmware::toolchain::{RISCV_TARGET, Toolchain};
-use crate::firmware::workspace;
+use crate::firmware::{image, subprocess, workspace};
 use crate::interpret::{Call, Machine, Tally};
 use crate::job::Job;
 use crate::setting::names;
@@ -58,17 +57,14 @@ pub fn build(program: Program, effects: Option<Effects>) -> Result<PathBuf, Erro
         None => cargo.env_remove("FLAT_PROBE_EFFECTS"),
     };
     let of = effects.map_or_else(|| "all effects at run time".to_owned(), |effects| effects.to_string());
+    let turn = image::turn()?;
     subprocess::run(&format!("building the {} probe for {of}", program.bin()), &mut cargo)?;
-
-    // All builds leave their image under one name: each gets a place of its own.
     let directory = workspace::target_dir()?.join("firmware");
     let built = directory.join(RISCV_TARGET).join(PROFILE).join(program.bin());
     let effects = effects.map_or_else(|| "any".to_owned(), |effects| names(effects, "+"));
     let file = format!("{}-{effects}.elf", program.bin());
     let image = directory.join("probes").join(file);
-    fs::create_dir_all(directory.join("probes")).and_then(|()| fs::copy(&built, &image)).map_err(|error| {
-        Error::target(format!("cannot copy {} to {}: {error}", built.display(), image.display()), "")
-    })?;
+    turn.keep(&built, &image)?;
     Ok(image)
 }
 

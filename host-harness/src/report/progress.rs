@@ -18,6 +18,11 @@ pub fn say(text: &str) {
     BARS.suspend(|| println!("{text}"));
 }
 
+/// The same on standard error, for what is no part of a report.
+pub fn note(text: &str) {
+    BARS.suspend(|| eprintln!("{text}"));
+}
+
 /// Whether a bar over many runs is shown, below which those of single runs would only flicker.
 static OVERALL: AtomicBool = AtomicBool::new(false);
 

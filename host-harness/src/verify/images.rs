@@ -75,10 +75,11 @@ pub(super) fn elf_esp32c3() -> Result {
 
 /// Images that no other step builds: the other link, the other way for logs at another rate, and what shows the engine's use.
 pub(super) fn variants_esp32c3() -> Result {
-    image::build_as(Board::Esp32c3, Build { usb: true, ..Build::PRODUCT })?;
+    image::build_as(Board::Esp32c3, Build::USB)?;
     let mut cargo = Toolchain::find()?.cargo("build")?;
     image::choose(Board::Esp32c3, Build { rtt: true, ..Build::PRODUCT }, &mut cargo)?;
     cargo.args(["--bins", "--examples"]).env("FLAT_BAUD", "115200");
+    let _turn = image::turn()?;
     subprocess::run("building the examples, and the firmware with RTT for 115200 baud", &mut cargo)?;
     Ok(Verdict::Passed("usb; rtt at 115200 baud; the examples".into()))
 }
@@ -88,6 +89,7 @@ pub(super) fn aliases() -> Result {
     let toolchain = Toolchain::find()?;
     let rig = env::current_exe().map_err(|error| Error::target(format!("cannot find rig itself: {error}"), ""))?;
     let runner = Value::from(vec![&*rig.to_string_lossy(), "flash", "esp32c3", "--print", "--elf"]);
+    let _turn = image::turn()?;
     for alias in ["build-qemu-virt", "flash-esp32c3"] {
         let mut cargo = toolchain.cargo(alias)?;
         cargo.env("FLAT_BUILD", workspace::build_id()?);
