@@ -9,6 +9,8 @@ mod log;
 mod outbox;
 mod receive;
 #[cfg(feature = "physics")]
+mod show;
+#[cfg(feature = "physics")]
 mod simulate;
 mod transmit;
 

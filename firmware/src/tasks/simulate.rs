@@ -11,6 +11,7 @@ use static_cell::ConstStaticCell;
 use super::answer::{Session, answer};
 use super::arrivals::ARRIVALS;
 use super::outbox::OUTBOX;
+use super::show::show;
 use crate::board::{ROOM, StageCounter, machine};
 use crate::watchdog;
 
@@ -44,7 +45,7 @@ pub(crate) async fn simulate(identity: Identity, counter: StageCounter) -> ! {
     let mut outbox = &OUTBOX;
     let mut earliest = Instant::MIN;
     loop {
-        session.demonstrate(Instant::now().as_micros());
+        show(&mut session);
         watchdog::PHYSICS.end();
         // In this order: a flood of commands doesn't hold up a step that is due.
         let next = select(due(&session, earliest), ARRIVALS.receive()).await;

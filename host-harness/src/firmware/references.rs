@@ -51,7 +51,7 @@ const UNNAMED: &str = "unnamed constants";
 const POINTERS: &str = "pointers";
 
 /// Names begin as they do in reports: demangled, with angle brackets.
-const PERMITS: [Permit; 26] = [
+const PERMITS: [Permit; 24] = [
     // Interrupts.
     Permit { from: "_continue_interrupt_trap", to: POINTERS, why: VECTORS },
     Permit { from: "handle_interrupts", to: POINTERS, why: VECTORS },
@@ -74,9 +74,7 @@ const PERMITS: [Permit; 26] = [
     // The physics task.
     Permit { from: PHYSICS_TASK, to: "embassy_executor::raw::waker::VTABLE", why: WAKERS },
     Permit { from: PHYSICS_TASK, to: "flat_firmware::tasks::answer::answer", why: COMMANDS },
-    Permit { from: PHYSICS_TASK, to: "<flat_session::", why: COMMANDS },
-    Permit { from: PHYSICS_TASK, to: "<&str as core::fmt::Display>", why: COMMANDS },
-    Permit { from: PHYSICS_TASK, to: UNNAMED, why: COMMANDS },
+    Permit { from: PHYSICS_TASK, to: "flat_firmware::tasks::show::show", why: COMMANDS },
     Permit { from: PHYSICS_TASK, to: POINTERS, why: TABLES },
     // A tick.
     Permit { from: TICK, to: POINTERS, why: TABLES },

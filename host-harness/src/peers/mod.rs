@@ -4,7 +4,7 @@ mod accuracy;
 mod cost;
 mod figures;
 mod native;
-mod oracle;
+pub mod oracle;
 
 use std::time::Duration;
 

@@ -13,7 +13,7 @@ use crate::interrupt;
 use crate::job::Job;
 
 /// Its manifest, relative to the root: a workspace of its own, so that nothing else waits for its engines.
-const MANIFEST: &str = "host-harness/oracles/Cargo.toml";
+pub const MANIFEST: &str = "host-harness/oracles/Cargo.toml";
 /// Name of the package and of its program.
 const NAME: &str = "flat-oracles";
 /// Floats of a body in a line.

@@ -5,15 +5,26 @@ use std::process::Command;
 use super::step::{Result, Verdict};
 use crate::error::Error;
 use crate::firmware::{subprocess, workspace};
+use crate::peers::oracle;
 
 pub(super) fn format() -> Result {
     // The firmware too: formatting needs no target.
-    let check = ["fmt", "--all", "--check", "--", "--files-with-diff"];
-    cargo("cargo fmt --check", &check).map(|_| passed("every crate"))
+    for crates in [&["--all"][..], &["--manifest-path", oracle::MANIFEST]] {
+        let check = [&["fmt", "--check"][..], crates, &["--", "--files-with-diff"]].concat();
+        cargo("cargo fmt --check", &check)?;
+    }
+    Ok(passed("every crate"))
 }
 
 pub(super) fn lint() -> Result {
     cargo("cargo clippy", &["clippy", "--all-targets", "--", "-Dwarnings"]).map(|_| passed("no warnings"))
+}
+
+/// A workspace of its own, and a target directory of its own: nobody else's dependencies are built anew for it.
+pub(super) fn lint_oracles() -> Result {
+    let mut clippy = call(&["clippy", "--locked", "--manifest-path", oracle::MANIFEST, "--target-dir"])?;
+    clippy.arg(workspace::target_dir()?.join("oracles")).args(["--", "-Dwarnings"]);
+    subprocess::run("clippy on the oracles", &mut clippy).map(|_| passed("no warnings"))
 }
 
 pub(super) fn test() -> Result {

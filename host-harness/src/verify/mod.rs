@@ -5,6 +5,7 @@ mod baseline;
 mod host;
 mod images;
 mod scenarios;
+mod standalone;
 mod step;
 mod summary;
 mod trials;
@@ -34,16 +35,17 @@ pub struct VerifyArgs {
 }
 
 /// Steps on the host's own crates, in their order; what finds most mistakes in least time comes first.
-const HOST: [Step; 5] = [
+const HOST: [Step; 6] = [
     Step::new("format", "cargo fmt --check", &[], host::format),
     Step::new("lint", "clippy on the host's crates", &[], host::lint),
     Step::new("test", "unit, property and documentation tests", &[], host::test),
     Step::new("doc", "documentation without warnings", &[], host::doc),
     Step::new("scenes-mock", "all scenarios on the mock", &[], scenarios::mock),
+    Step::new("lint-oracles", "clippy on the engines that flat is measured beside", &[], host::lint_oracles),
 ];
 
 /// Steps on the firmware, which go on beside the others: neither needs the other's results, nor cargo's lock on them.
-const FIRMWARE: [Step; 25] = [
+const FIRMWARE: [Step; 28] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("build-qemu_virt", "the image for QEMU", &["provision"], images::build_qemu_virt),
     Step::new("build-esp32c3", "the image for the ESP32-C3", &["provision"], images::build_esp32c3),
@@ -95,6 +97,14 @@ const FIRMWARE: [Step; 25] = [
         &["build-esp32c3"],
         scenarios::esp32c3_f32,
     ),
+    Step::new(
+        "usb-esp32c3",
+        "the same bits over an emulated ESP32-C3's own USB port",
+        &["provision"],
+        scenarios::esp32c3_usb,
+    ),
+    Step::new("demo-qemu", "without a host: demos on QEMU", &["build-qemu_virt"], standalone::qemu_virt),
+    Step::new("demo-esp32c3", "without a host: demos on an emulated ESP32-C3", &["build-esp32c3"], standalone::esp32c3),
     Step::new(
         "scenes-esp-qemu",
         "the same bits from the ESP32-C3's flash in Espressif's QEMU",

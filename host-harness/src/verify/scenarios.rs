@@ -10,7 +10,8 @@ use crate::firmware::image::{self, Board, Build};
 use crate::firmware::subprocess::{self, Ended};
 use crate::target::{Target, esp_qemu};
 
-/// A command that runs an ESP32-C3 image, `{elf}`, with the board's UART0 on its standard input and output.
+/// A command that runs an ESP32-C3 image, `{elf}`, with the board's link on its standard input and output: `uart0`, or `usb` if
+/// the command has a `{link}` to say so.
 const EMULATOR: &str = "FLAT_C3_EMULATOR";
 
 /// Where [`flip`] inverts a bit: after which stage of which step, which body, which bit of its velocity.
@@ -50,19 +51,34 @@ fn esp32c3(scalar: &str) -> Result {
     }
 }
 
+/// The other link: what the scenes come to doesn't hang on it, so that one of them will do.
+pub(super) fn esp32c3_usb() -> Result {
+    match emulated(Build::USB)? {
+        Ok((target, elf)) => {
+            let (target, elf) = (target.to_string(), elf.to_string_lossy());
+            rig(&["ball_pit", "--target", "mock", "--target", &target, "--elf", &elf])
+        }
+        Err(missing) => Ok(Verdict::Skipped(missing)),
+    }
+}
+
 /// The target that runs an ESP32-C3 image under emulation, and the image; else why there is none.
 pub(super) fn emulated(kind: Build) -> core::result::Result<core::result::Result<(Target, PathBuf), String>, Error> {
     let Ok(command) = env::var(EMULATOR) else {
         return Ok(Err(format!(
-            "no emulator for the ESP32-C3: set {EMULATOR} to a command with {{elf}} for the image and the UART on its \
-             standard input and output"
+            "no emulator for the ESP32-C3: set {EMULATOR} to a command with {{elf}} for the image, {{link}} for `uart0` or \
+             `usb`, and that link on its standard input and output"
         )));
     };
     if !command.contains("{elf}") {
         return Err(Error::usage(format!("{EMULATOR} is `{command}`, without {{elf}}"), "say where the image goes"));
     }
+    if kind.usb && !command.contains("{link}") {
+        return Ok(Err(format!("{EMULATOR} has no {{link}}, where this step would say `usb` and others `uart0`")));
+    }
     let elf = image::build_as(Board::Esp32c3, kind)?;
-    let command = command.replace("{elf}", &shell_words::quote(&elf.to_string_lossy()));
+    let link = if kind.usb { "usb" } else { "uart0" };
+    let command = command.replace("{link}", link).replace("{elf}", &shell_words::quote(&elf.to_string_lossy()));
     Ok(Ok((Target::Exec(command), elf)))
 }
 

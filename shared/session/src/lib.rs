@@ -19,6 +19,8 @@ mod any_world;
 mod backtrace;
 pub mod bare;
 mod cut;
+#[cfg(feature = "physics")]
+mod demo;
 mod identity;
 mod link;
 mod logs;
@@ -37,6 +39,8 @@ mod stream;
 pub use any_world::Worlds;
 pub use backtrace::return_addresses;
 pub use cut::cut;
+#[cfg(feature = "physics")]
+pub use demo::Demo;
 pub use identity::{Identity, Stopwatch};
 pub use link::LinkCounters;
 pub use logs::Logs;

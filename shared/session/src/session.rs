@@ -10,9 +10,10 @@ use flat_wire::message::{
 
 use crate::any_world::{AnyWorld, Worlds, reason};
 use crate::cut::cut;
+use crate::demo::Demo;
 use crate::identity::{Identity, Stopwatch};
 use crate::link::LinkCounters;
-use crate::punctuality::Punctuality;
+use crate::punctuality::{Punctuality, Timing};
 use crate::sink::{Class, Sender, Sink};
 use crate::stream::{Dropped, Emission, Record};
 
@@ -98,20 +99,30 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Runs the next scene of the catalogue, at its defaults and in silence, if none runs and no host has ever spoken.
-    pub fn demonstrate(&mut self, now_us: u64) {
+    /// Runs the next scene of the catalogue, at its defaults and without frames, if none runs and no host has ever spoken.
+    /// Returns what the last one came to.
+    pub fn demonstrate(&mut self, now_us: u64) -> Option<Demo> {
         if self.hosted || self.run.is_some() {
-            return;
+            return None;
         }
+        let ended = self.ended_demo();
         // A scene that there is no room for is passed over.
         for _ in flat_scenes::SCENES {
             let scene = &flat_scenes::SCENES[self.demo % flat_scenes::SCENES.len()];
             self.demo += 1;
             let request = SceneRequest { name: cut(format_args!("{}", scene.name)), ..SceneRequest::default() };
             if self.load(&request).and_then(|_| self.start(scene.steps, now_us)).is_ok() {
-                return;
+                break;
             }
         }
+        ended
+    }
+
+    fn ended_demo(&self) -> Option<Demo> {
+        let Loadout { scene, scalar, step, .. } = self.scene?;
+        let digest = self.worlds.of(scalar)?.digest();
+        let Timing { late_us, took_us } = self.punctuality.worst();
+        Some(Demo { scene: scene.name, steps: step, digest, late_us, took_us })
     }
 
     /// Ends the demos: the host finds a device that has done nothing yet.

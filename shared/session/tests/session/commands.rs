@@ -87,18 +87,24 @@ fn loading_ends_a_run_and_forgets_what_was_counted() {
 }
 
 #[test]
-fn a_device_without_a_host_runs_one_scene_after_the_other_in_silence() {
+fn a_device_without_a_host_runs_one_scene_after_the_other_sends_nothing_and_tells_what_they_came_to() {
     let mut device = Device::new();
-    let mut scenes = 0;
-    while scenes < 3 {
-        if device.session.due_us().is_none() {
-            device.session.demonstrate(device.now_us);
-            scenes += 1;
-        }
+    let mut demos = Vec::new();
+    while demos.len() < 3 {
+        demos.extend(device.session.demonstrate(device.now_us));
         device.now_us = device.session.due_us().expect("a demo runs").max(device.now_us);
         device.tick();
     }
     assert!(device.ring.is_empty());
+    for (demo, scene) in demos.iter().zip(flat_scenes::SCENES) {
+        assert_eq!((demo.scene, demo.steps, demo.late_us), (scene.name, scene.steps, 0));
+        let mut hosted = Device::new();
+        let request = SceneRequest { name: scene.name.try_into().unwrap(), ..SceneRequest::default() };
+        assert!(matches!(hosted.ask(&Command::Load(request)), Reply::Loaded(_)));
+        assert_eq!(hosted.ask(&Command::Run { steps: scene.steps }), Reply::Done);
+        hosted.run(FAST);
+        assert_eq!(hosted.finish().1, demo.digest, "{}", scene.name);
+    }
 }
 
 #[test]
