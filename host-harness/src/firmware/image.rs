@@ -14,7 +14,7 @@ use super::{subprocess, workspace};
 use crate::error::Error;
 
 /// The profile in the root manifest that device images are built with.
-const PROFILE: &str = "firmware";
+pub const PROFILE: &str = "firmware";
 
 /// What `.cargo/config.toml` says of `DEFMT_LOG`, and what else is a word.
 const USUAL_LOGS: &str = "info";

@@ -4,7 +4,8 @@
 //! ```text
 //!   provision -> toolchain -> image -> elf (instructions), hot_path (dwarf)
 //!                    |
-//!                    `-> esp32 (a type-check where there is no Xtensa compiler)
+//!                    |-> esp32 (a type-check where there is no compiler for the whole chip)
+//!                    `-> xtensa (the chip-free crates on such a core)
 //! ```
 
 pub mod dwarf;
@@ -27,3 +28,4 @@ pub mod suite;
 pub mod symbols;
 pub mod toolchain;
 pub mod workspace;
+pub mod xtensa;

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::subprocess;
 use super::toolchain::{self, DEBIAN_COMPILER, RISCV_TARGET, Toolchain};
-use super::workspace;
+use super::{workspace, xtensa};
 use crate::error::{Error, Kind};
 
 /// The emulator of the `qemu_virt` board.
@@ -21,7 +21,8 @@ pub fn provision() -> Result<String, Error> {
     if Toolchain::find().and_then(|toolchain| toolchain.clippy()).is_err() {
         install_compiler()?;
     }
-    let tools = [(QEMU, "qemu-system-misc"), (OBJDUMP, "binutils-riscv64-unknown-elf")];
+    let tools =
+        [(QEMU, "qemu-system-misc"), (OBJDUMP, "binutils-riscv64-unknown-elf"), (xtensa::ASSEMBLER, xtensa::BINUTILS)];
     let missing: Vec<_> =
         tools.iter().filter(|(tool, _)| toolchain::installed(tool).is_none()).map(|&(_, package)| package).collect();
     if !missing.is_empty() && may_install_packages() {

@@ -24,6 +24,8 @@ pub struct Compiler {
     pub rustc: PathBuf,
     /// As rustc says it, `1.96.0`.
     pub release: String,
+    /// LLVM's release, as rustc says it: `22.1.8`; empty for other code generators.
+    pub llvm: String,
     host: String,
     sysroot: PathBuf,
 }
@@ -50,6 +52,7 @@ impl Compiler {
         let compiler = Self {
             rustc: rustc.to_owned(),
             release: field("release: ")?,
+            llvm: field("LLVM version: ").unwrap_or_default(),
             host: field("host: ")?,
             sysroot: answer(rustc, "--print=sysroot")?.trim().into(),
         };

@@ -45,11 +45,16 @@ const HOST: [Step; 6] = [
 ];
 
 /// Steps on the firmware, which go on beside the others: neither needs the other's results, nor cargo's lock on them.
-const FIRMWARE: [Step; 28] = [
+const FIRMWARE: [Step; 29] = [
     Step::new("provision", "compiler for the boards, and an emulator", &[], images::provision),
     Step::new("build-qemu_virt", "the image for QEMU", &["provision"], images::build_qemu_virt),
     Step::new("build-esp32c3", "the image for the ESP32-C3", &["provision"], images::build_esp32c3),
-    Step::new("lint-qemu_virt", "clippy on the firmware for QEMU", &["provision"], images::lint_qemu_virt),
+    Step::new(
+        "lint-qemu_virt",
+        "clippy on the firmware for QEMU, and on the harness's own programs for bare metal",
+        &["provision"],
+        images::lint_qemu_virt,
+    ),
     Step::new("lint-esp32c3", "clippy on the firmware for the ESP32-C3", &["provision"], images::lint_esp32c3),
     Step::new(
         "elf-qemu_virt",
@@ -105,6 +110,12 @@ const FIRMWARE: [Step; 28] = [
     ),
     Step::new("demo-qemu", "without a host: demos on QEMU", &["build-qemu_virt"], standalone::qemu_virt),
     Step::new("demo-esp32c3", "without a host: demos on an emulated ESP32-C3", &["build-esp32c3"], standalone::esp32c3),
+    Step::new(
+        "scenes-xtensa",
+        "the same bits on an Xtensa core in QEMU, fixed point",
+        &["provision"],
+        scenarios::xtensa,
+    ),
     Step::new(
         "scenes-esp-qemu",
         "the same bits from the ESP32-C3's flash in Espressif's QEMU",

@@ -8,6 +8,7 @@ use super::step::{Result, Verdict};
 use crate::error::{CHECK_FAILED, Error};
 use crate::firmware::image::{self, Board, Build};
 use crate::firmware::subprocess::{self, Ended};
+use crate::firmware::xtensa;
 use crate::target::{Target, esp_qemu};
 
 /// A command that runs an ESP32-C3 image, `{elf}`, with the board's link on its standard input and output: `uart0`, or `usb` if
@@ -35,6 +36,16 @@ pub(super) fn esp32c3_fixed() -> Result {
 
 pub(super) fn esp32c3_f32() -> Result {
     esp32c3("f32")
+}
+
+pub(super) fn xtensa() -> Result {
+    match xtensa::build()? {
+        Ok(program) => {
+            let target = Target::Exec(xtensa::emulation(&program)).to_string();
+            rig(&["--target", "mock", "--target", &target, "--scalar", "fixed"])
+        }
+        Err(missing) => Ok(Verdict::Skipped(missing)),
+    }
 }
 
 pub(super) fn esp_qemu() -> Result {

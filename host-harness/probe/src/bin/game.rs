@@ -30,7 +30,7 @@ extern "C" fn probe() -> ! {
 
 fn play() -> Result<(), Error<Fixed>> {
     // SAFETY: the only reference to this static, made once: there is one core, and the entry is entered once.
-    let storage = unsafe { &mut *(&raw mut STORAGE) };
+    let storage = unsafe { (&raw mut STORAGE).as_mut_unchecked() };
     let mut world = storage.world();
     // A game's figures come from its data: the compiler must not know them.
     let half = |x, y| Shape::Box { half: vec2(black_box(px(x)), black_box(px(y))) };

@@ -45,11 +45,11 @@ extern "C" fn probe(
     let request = Request { scene, bodies, seed, level, iterations, effects, steps };
     match (EFFECTS, scalar) {
         // SAFETY: the only reference to this static, made once: there is one core, and the entry is entered once.
-        (_, 0) => run(unsafe { &mut *(&raw mut FIXED) }.world(), &request),
+        (_, 0) => run(unsafe { (&raw mut FIXED).as_mut_unchecked() }.world(), &request),
         // SAFETY: as above.
-        (None, 1) => run(unsafe { &mut *(&raw mut F32) }.world(), &request),
+        (None, 1) => run(unsafe { (&raw mut F32).as_mut_unchecked() }.world(), &request),
         // SAFETY: as above.
-        (None, _) => run(unsafe { &mut *(&raw mut F64) }.world(), &request),
+        (None, _) => run(unsafe { (&raw mut F64).as_mut_unchecked() }.world(), &request),
         (Some(_), _) => end(FAIL, [0; 2]),
     }
 }
