@@ -1,6 +1,7 @@
 //! The simulation: commands in, steps when they are due, frames out.
 
 use core::future::pending;
+use core::mem::MaybeUninit;
 
 use embassy_futures::select::{Either, select};
 use embassy_time::{Duration, Instant, Timer};
@@ -26,9 +27,19 @@ type World<S, const BODIES: usize, const CONTACTS: usize> = ConstStaticCell<Stor
 const TILES: usize = 2048;
 
 static FIXED: World<Fixed, { ROOM.fixed.bodies }, { ROOM.fixed.contacts }> = World::new(Storage::new());
-static F32: World<f32, { ROOM.f32.bodies }, { ROOM.f32.contacts }> = World::new(Storage::new());
 #[cfg(feature = "qemu_virt")]
 static F64: World<f64, { ROOM.f64.bodies }, { ROOM.f64.contacts }> = World::new(Storage::new());
+
+/// The storage for binary32, in memory that chips need for their boot loader until they run, and that nobody clears.
+///
+/// Called once.
+fn f32_storage() -> &'static mut Storage<f32, { ROOM.f32.bodies }, { ROOM.f32.contacts }, TILES> {
+    type Room = MaybeUninit<Storage<f32, { ROOM.f32.bodies }, { ROOM.f32.contacts }, TILES>>;
+    #[cfg_attr(feature = "_esp", esp_hal::ram(reclaimed))]
+    static mut F32: Room = Room::uninit();
+    // SAFETY: the only reference to this static, made once.
+    unsafe { (&raw mut F32).as_mut_unchecked() }.write(Storage::new())
+}
 
 /// Runs the session. Wakes for a command, or when the microsecond timer says that a step is due; never for a byte.
 #[embassy_executor::task]
@@ -36,7 +47,7 @@ pub(crate) async fn simulate(identity: Identity, counter: StageCounter) -> ! {
     // `take` can't fail: there is one instance of this task, and it comes by here once.
     let worlds = Worlds {
         fixed: FIXED.take().world(),
-        f32: F32.take().world(),
+        f32: f32_storage().world(),
         #[cfg(feature = "qemu_virt")]
         f64: F64.take().world(),
     };

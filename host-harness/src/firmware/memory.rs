@@ -16,7 +16,7 @@ pub struct Memory {
     pub ram_code: u64,
     /// Variables with an initial value, and constants that were moved to RAM.
     pub data: u64,
-    /// Variables that start as zero.
+    /// Variables that start as zero, or in RAM that the boot loader leaves, as nothing.
     pub bss: u64,
     /// What is left of RAM: the stack of the link's tasks, and of the interrupts, physics included.
     pub stack: u64,
