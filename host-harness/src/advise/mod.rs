@@ -93,7 +93,7 @@ pub fn run(arguments: &AdviseArgs) -> Result<bool, Error> {
     let bar = overall(settings.len());
     let comparison = compare(&mut evaluator, scene, choice, &settings, &bar)?;
     bar.finish_and_clear();
-    let cycles = Cycles::of(evaluator.meter.unit);
+    let cycles = Cycles::of(evaluator.meter.unit, evaluator.meter.is_board);
     let wanted = Wanted { arguments, cycles: &cycles };
     print(&comparison, &wanted, unit_name(evaluator.meter.unit));
     Ok(comparison.candidates.iter().any(|candidate| wanted.missed(candidate).is_none()))
@@ -198,7 +198,7 @@ mod tests {
         let cost = Summary { mean: 1e5, worst: 400_000, ..Summary::default() };
         let evaluation = Evaluation { setting: Setting::default(), cost, accuracy };
         let comparison = Comparison::new(run::find("stack").expect("a scene"), 10, 4, vec![evaluation]);
-        let cycles = Cycles::of(flat_wire::message::Counter::Instructions);
+        let cycles = Cycles::of(flat_wire::message::Counter::Instructions, false);
         Wanted { arguments: &arguments, cycles: &cycles }.missed(&comparison.candidates[0])
     }
 

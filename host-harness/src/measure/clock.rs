@@ -58,13 +58,20 @@ pub struct Share {
 }
 
 impl Cycles {
-    /// What is known of a target by its unit alone.
-    pub fn of(unit: Counter) -> Self {
+    /// What is known of a target by its unit, and by whether it may be a chip: an emulation's cycles are an estimate.
+    pub fn of(unit: Counter, is_board: bool) -> Self {
         match unit {
-            Counter::Cycles => Self {
+            Counter::Cycles if is_board => Self {
                 per_count: 1.0,
                 estimated: false,
                 basis: "counted by the chip, without what reading its counter takes".into(),
+                mix: Vec::new(),
+            },
+            Counter::Cycles => Self {
+                per_count: 1.0,
+                estimated: true,
+                basis: "an estimate: counted in an emulation of the chip, which charges each instruction what it takes for right"
+                    .into(),
                 mix: Vec::new(),
             },
             _ => Self {
@@ -110,6 +117,13 @@ mod tests {
     fn a_clock_of_160_mhz_has_two_and_two_thirds_million_cycles_a_step() {
         let clock = Clock { mhz: 160 };
         assert!((clock.budget() - 2_666_666.7).abs() < 0.1);
-        assert!((Cycles::of(Counter::Cycles).load(1_333_333.0, clock) - 0.5).abs() < 1e-6);
+        assert!((Cycles::of(Counter::Cycles, true).load(1_333_333.0, clock) - 0.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn only_a_chip_counts_its_cycles() {
+        assert!(!Cycles::of(Counter::Cycles, true).estimated);
+        assert!(Cycles::of(Counter::Cycles, false).estimated);
+        assert!(Cycles::of(Counter::Instructions, true).estimated);
     }
 }

@@ -18,6 +18,8 @@ pub struct Meter {
     pub identity: Identity,
     /// What it counts.
     pub unit: Counter,
+    /// Whether it may be a chip, and no emulation of one.
+    pub is_board: bool,
     capacities: Vec<Capacity>,
 }
 
@@ -35,7 +37,8 @@ impl Meter {
             ));
         }
         let capacities = hello.capacities.iter().copied().collect();
-        Ok(Self { client, identity: Identity::new(target, &hello), unit: hello.counter, capacities })
+        let (identity, unit, is_board) = (Identity::new(target, &hello), hello.counter, target.is_board());
+        Ok(Self { client, identity, unit, is_board, capacities })
     }
 
     /// Most bodies and contacts in a number format; none if the target doesn't know the format.

@@ -95,7 +95,7 @@ fn cycles(
     job: &impl Fn(u16) -> Result<Job, Error>,
 ) -> Result<Cycles, Error> {
     if meter.unit != Counter::Instructions {
-        return Ok(Cycles::of(meter.unit));
+        return Ok(Cycles::of(meter.unit, meter.is_board));
     }
     let (steps, bodies) = ESTIMATE;
     let mut job = job(bodies.clamp(*range.start(), *range.end()))?;

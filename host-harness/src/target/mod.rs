@@ -82,6 +82,11 @@ impl Target {
 }
 
 impl Target {
+    /// Whether it may be a board. What is behind a socket or a program is taken for an emulation.
+    pub fn is_board(&self) -> bool {
+        matches!(self, Self::Serial { .. })
+    }
+
     /// What reports call it: its name, but of a command only the program.
     pub fn label(&self) -> String {
         let Self::Exec(command) = self else { return self.to_string() };
