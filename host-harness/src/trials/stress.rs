@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use console::style;
-use flat_wire::message::{Command, Detail, Flow, Frame, Reply, SceneRequest, Status, StreamRequest};
+use flat_wire::message::{Command, Detail, Flow, Frame, Reply, SceneRequest, Stack, Status, StreamRequest};
 
 use super::disturbance::Disturbance;
 use crate::cli::seconds;
@@ -134,16 +134,19 @@ fn disturbed(
             outcome.wrong.get_or_insert(step);
         }
     };
-    let started = Instant::now();
+    let mut progress = Instant::now();
     loop {
-        match client.frame(started + client.patience())? {
-            Some(Frame::Step { step, digest }) => check(step, digest),
+        match client.frame(progress + client.patience())? {
+            Some(Frame::Step { step, digest }) => {
+                check(step, digest);
+                progress = Instant::now();
+            }
             Some(Frame::Finished { step, digest, .. }) => {
                 check(step, digest);
                 break;
             }
-            Some(_) if started.elapsed() < client.patience() => {}
-            _ => return Err(client.silent("the end of a disturbed run", started)),
+            Some(_) if progress.elapsed() < client.patience() => {}
+            _ => return Err(client.silent("the next step of a disturbed run", progress)),
         }
     }
     Disturbance::end(client);
@@ -166,6 +169,10 @@ fn problems(outcome: &Outcome, late: u32, disturbance: Disturbance) -> Vec<Strin
     if outcome.status.late_us > late {
         problems.push(format!("a step began {} us late; {late} us are allowed", outcome.status.late_us));
     }
+    let Stack { size, peak } = outcome.status.stack;
+    if peak > size / 3 * 2 {
+        problems.push(format!("{peak} of the stack's {size} bytes were used; two thirds are allowed"));
+    }
     if disturbance == Disturbance::LogStorm && outcome.logs == 0 {
         problems.push("no log message arrived that its image could read".into());
     }
@@ -174,10 +181,12 @@ fn problems(outcome: &Outcome, late: u32, disturbance: Disturbance) -> Vec<Strin
 
 fn line(outcome: &Outcome) -> String {
     let Outcome { status, digests, logs, .. } = outcome;
-    let Status { late_us, took_us, overruns, dropped_detail, dropped_steps, damaged, .. } = status;
+    let Status { late_us, took_us, overruns, dropped_detail, dropped_steps, damaged, stack, .. } = status;
     format!(
         "at worst {late_us} us late, {took_us} us long, {overruns} overruns; {digests} digests, {} frames dropped, {damaged} \
-         damaged on the way in, {logs} logs",
-        dropped_detail + dropped_steps
+         damaged on the way in, {logs} logs; stack {} of {} bytes",
+        dropped_detail + dropped_steps,
+        stack.peak,
+        stack.size
     )
 }
