@@ -11,6 +11,7 @@
 use crate::scalar::POSITION_LIMIT;
 use crate::vec2::Vec2;
 
+mod around;
 mod axis;
 mod behavior;
 mod bodies;

@@ -127,6 +127,10 @@ pub(crate) fn look<S: Scalar>(
     };
     let mut found = Vec::new();
     blocking(&mut found, tiles, &outline, narrowphase::reach::<S>(motion), may_count);
+    if found.is_empty() {
+        contacts.iter_mut().for_each(left);
+        return true;
+    }
     let mut complete = true;
     for contact in found.iter().filter_map(|&contact| reachable(tiles, &outline, motion, contact)) {
         let manifold = Manifold::<S>::of(contact.normal, -contact.penetration);
@@ -164,28 +168,36 @@ pub(crate) fn look<S: Scalar>(
     let taken = places.taken;
     for (place, contact) in contacts.iter_mut().enumerate() {
         if taken >> place & 1 == 0 {
-            contact.flags.clear(Flags::LANDED.or(Flags::DROPPED));
-        }
-        if taken >> place & 1 == 0 || contact.flags.has(Flags::DROPPED) {
+            left(contact);
+        } else if contact.flags.has(Flags::DROPPED) {
             narrowphase::leave(contact);
         }
     }
     complete
 }
 
+/// Forgets what a contact without a tile has remembered.
+fn left<S: Scalar>(contact: &mut Contact<S>) {
+    contact.flags.clear(Flags::LANDED.or(Flags::DROPPED));
+    narrowphase::leave(contact);
+}
+
 /// A body's contacts with the map in an order that doesn't depend on how they came to lie: sensors last, floors first.
 fn sort<S: Scalar>(contacts: &mut [Contact<S>]) {
-    let rank = |contact: &Contact<S>| {
-        let sensor = contact.flags.has(Flags::SENSOR);
-        (sensor, !is_in_use(contact), -contact.normal.y, contact.normal.x, S::number_of(contact.share))
-    };
     for start in 1..contacts.len() {
         let mut place = start;
-        while place > 0 && rank(&contacts[place]) < rank(&contacts[place - 1]) {
+        while place > 0 && precedes(&contacts[place], &contacts[place - 1]) {
             contacts.swap(place, place - 1);
             place -= 1;
         }
     }
+}
+
+fn precedes<S: Scalar>(one: &Contact<S>, next: &Contact<S>) -> bool {
+    let kind = |contact: &Contact<S>| (contact.flags.has(Flags::SENSOR), !is_in_use(contact));
+    let place = |contact: &Contact<S>| (-contact.normal.y, contact.normal.x, S::number_of(contact.share));
+    let kinds = (kind(one), kind(next));
+    kinds.0 < kinds.1 || (kinds.0 == kinds.1 && place(one) < place(next))
 }
 
 /// A body's blocking contacts, of which some have been dealt with.
@@ -244,12 +256,17 @@ fn reachable<S: Scalar>(
         return Some(TileContact { penetration: -gap, ..contact });
     }
     // A face is met only where the body's way leads over it.
-    let (way, face) = (Bounds::swept(outline, motion), tiles.bounds::<S>(contact.tile));
-    let graze = S::real(GRAZE);
+    let face = tiles.bounds::<S>(contact.tile);
+    let leads_over = |centre: S::Real, half: S::Real, motion: S::Real, low: S::Real, high: S::Real| {
+        let half = half - S::real(GRAZE);
+        let zero = S::Real::ZERO;
+        centre - half + motion.lesser(zero) < high && centre + half + motion.greater(zero) > low
+    };
+    let (centre, half) = (outline.centre, outline.half);
     let over = if normal.x == S::Unit::ZERO {
-        way.min.x + graze < face.max.x && way.max.x - graze > face.min.x
+        leads_over(centre.x, half.x, motion.x, face.min.x, face.max.x)
     } else {
-        way.min.y + graze < face.max.y && way.max.y - graze > face.min.y
+        leads_over(centre.y, half.y, motion.y, face.min.y, face.max.y)
     };
     over.then_some(contact)
 }

@@ -10,6 +10,9 @@ pub(super) struct Axis {
     origin: i16,
     size: u8,
     count: u32,
+    /// Where what has more of it on both sides begins and how far it extends, px.
+    inside: i32,
+    inside_extent: u32,
     /// `2^24 / size`, rounded up: see [`Axis::divided`].
     reciprocal: u32,
 }
@@ -17,7 +20,8 @@ pub(super) struct Axis {
 impl Axis {
     pub(super) fn new(origin: i16, size: u8, count: u16) -> Self {
         let reciprocal = (1_u32 << 24).div_ceil(u32::from(size));
-        Self { origin, size, count: count.into(), reciprocal }
+        let (inside, inside_count) = (i32::from(origin) + i32::from(size), u32::from(count.saturating_sub(2)));
+        Self { origin, size, count: count.into(), inside, inside_extent: inside_count * u32::from(size), reciprocal }
     }
 
     pub(super) fn origin(&self) -> i16 {
@@ -31,6 +35,12 @@ impl Axis {
     #[inline]
     pub(super) fn count(&self) -> u32 {
         self.count
+    }
+
+    /// Width of a column or height of a row, px.
+    #[inline]
+    pub(super) fn pitch<S: Scalar>(&self) -> S::Real {
+        S::real(px(self.size.into()))
     }
 
     /// `distance / size` without a division. The reciprocal is less than `size / 2^24` of itself too large; that adds less
@@ -56,8 +66,8 @@ impl Axis {
     /// What covers a coordinate in whole px, if there is more of it on both sides.
     #[inline]
     pub(super) fn inner(&self, whole_px: i32) -> Option<u32> {
-        let index = self.index(whole_px);
-        (index != 0 && index < self.count.saturating_sub(1)).then_some(index)
+        let distance = whole_px.wrapping_sub(self.inside);
+        ((distance as u32) < self.inside_extent).then(|| self.divided(distance) + 1)
     }
 
     /// What an interval overlaps or touches.

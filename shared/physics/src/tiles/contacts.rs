@@ -4,16 +4,14 @@
 //! circle touches the closest point of the tile, and a corner only where both faces at that corner exist and no tile lies
 //! before it. Rows of tiles thus act as one surface, at every sub-pixel phase.
 
-use core::ops::Range;
-
 use heapless::Vec;
 
-use super::flags::TileFlags;
-use super::map::{BLOCKING, Side, Tile, TileMap, is_one_way, is_solid};
+use super::around::Around;
+use super::map::{Tile, TileMap, is_one_way, is_solid};
 use super::touch::{Candidate, Probe, offset};
 use crate::geometry::{Bounds, Outline};
 use crate::scalar::{Quantity, Scalar};
-use crate::vec2::{Vec2, vec2};
+use crate::vec2::Vec2;
 
 /// A shape touches a tile, or comes close.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,86 +36,18 @@ impl TileMap<'_> {
     /// is stopped by it.
     #[inline]
     pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, mut visit: impl FnMut(TileContact<S>)) {
-        if outline.circle && self.contacts_around(outline, margin, &mut visit) {
-            return;
+        match self.around(outline, margin) {
+            Around::Nothing => {}
+            Around::Solid => self.contacts_around(outline, margin, &mut visit),
+            Around::Other => self.contacts_among(outline, margin, &mut visit),
         }
-        let reach = outline.half.map(|half| half.saturating_add(margin));
-        let (min, max) = (outline.centre.saturating_sub(reach), outline.centre.saturating_add(reach));
-        let (columns, rows) = self.axes();
-        let (columns, rows) = (columns.span::<S>(min.x, max.x), rows.span::<S>(min.y, max.y));
-        // Most shapes are near nothing.
-        if rows.clone().any(|row| self.row(row, &columns).iter().any(|&bits| bits & BLOCKING != 0)) {
-            self.contacts_among(outline, margin, columns, rows, visit);
-        }
-    }
-
-    /// The common case: a circle no larger than a tile, with its centre in a free place inside the map, reaches at most the tile
-    /// beside that place, the one above or below it and the one between those. Their faces towards it exist. False if it
-    /// isn't that case, and nothing was visited.
-    #[inline]
-    fn contacts_around<S: Scalar>(
-        &self,
-        outline: &Outline<S>,
-        margin: S::Real,
-        visit: &mut impl FnMut(TileContact<S>),
-    ) -> bool {
-        let (columns, rows) = self.axes();
-        let (centre, radius) = (outline.centre, outline.half.x);
-        let reach = radius.saturating_add(margin);
-        let (Some(column), Some(row)) = (columns.inner(S::floor(centre.x)), rows.inner(S::floor(centre.y))) else {
-            return false;
-        };
-        let (left, right) = (centre.x - columns.edge::<S>(column), columns.edge::<S>(column + 1) - centre.x);
-        let (top, bottom) = (centre.y - rows.edge::<S>(row), rows.edge::<S>(row + 1) - centre.y);
-        let (to_left, to_right, up, down) = (left <= reach, right <= reach, top <= reach, bottom <= reach);
-        let on_edge = left == S::Real::ZERO || top == S::Real::ZERO;
-        if on_edge || (to_left && to_right) || (up && down) {
-            return false;
-        }
-        let (next, level, aside) =
-            if to_left { (column - 1, Side::Right, left) } else { (column + 1, Side::Left, right) };
-        let (over, upright, away) = if up { (row - 1, Side::Bottom, top) } else { (row + 1, Side::Top, bottom) };
-        let (near, far) = (to_left || to_right, up || down);
-        let own = self.bits(column, row);
-        let beside = if near { self.bits(next, row) } else { 0 };
-        let above = if far { self.bits(column, over) } else { 0 };
-        let between = if near && far { self.bits(next, over) } else { 0 };
-        let all = own | beside | above | between;
-        if all & BLOCKING == 0 {
-            return true;
-        }
-        if is_solid(own) || all & TileFlags::ONE_WAY.bits() != 0 {
-            return false;
-        }
-        let mut meets_face = false;
-        for (bits, side, gap, column, row) in [(beside, level, aside, next, row), (above, upright, away, column, over)]
-        {
-            if is_solid(bits) {
-                let tile = Tile::new(column, row, bits);
-                visit(TileContact { normal: side.inward::<S>(), penetration: radius - gap, tile });
-                meets_face = true;
-            }
-        }
-        if !meets_face && is_solid(between) {
-            let probe = Probe::near(outline, margin);
-            let offset = vec2(if to_left { -left } else { right }, if up { -top } else { bottom });
-            if let Some(corner) = self.circle_on_corner(&probe, Tile::new(next, over, between), offset, level, upright)
-            {
-                visit(corner.contact);
-            }
-        }
-        true
     }
 
     #[inline(never)]
-    fn contacts_among<S: Scalar>(
-        &self,
-        outline: &Outline<S>,
-        margin: S::Real,
-        columns: Range<u32>,
-        rows: Range<u32>,
-        mut visit: impl FnMut(TileContact<S>),
-    ) {
+    fn contacts_among<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, visit: &mut dyn FnMut(TileContact<S>)) {
+        let near = Bounds::of(outline).grown(margin);
+        let (columns, rows) = self.axes();
+        let (columns, rows) = (columns.span::<S>(near.min.x, near.max.x), rows.span::<S>(near.min.y, near.max.y));
         let probe = Probe::near(outline, margin);
         let mut merged = Merged::<S>(Vec::new());
         for row in rows {

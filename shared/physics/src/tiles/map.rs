@@ -257,7 +257,13 @@ impl<'a> TileMap<'a> {
         if column >= self.columns.count() || row >= self.rows.count() {
             return 0;
         }
-        self.tiles.get((row * self.columns.count() + column) as usize).copied().unwrap_or(0)
+        self.byte(row * self.columns.count() + column)
+    }
+
+    /// The byte at a place in the map, row by row.
+    #[inline]
+    pub(super) fn byte(&self, place: u32) -> u8 {
+        self.tiles.get(place as usize).copied().unwrap_or(0)
     }
 
     #[inline]
@@ -300,6 +306,16 @@ impl Side {
             Self::Right => (column + 1, row),
             Self::Top => (column, row.wrapping_sub(1)),
             Self::Bottom => (column, row + 1),
+        }
+    }
+
+    /// The side by which the tile beside this side touches it.
+    pub(super) fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+            Self::Top => Self::Bottom,
+            Self::Bottom => Self::Top,
         }
     }
 

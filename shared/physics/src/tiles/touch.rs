@@ -91,8 +91,7 @@ impl TileMap<'_> {
     }
 
     /// `offset` leads from the circle's centre to the corner between two sides.
-    #[inline(never)]
-    pub(super) fn circle_on_corner<S: Scalar>(
+    fn circle_on_corner<S: Scalar>(
         &self,
         probe: &Probe<'_, S>,
         tile: Tile,
@@ -100,18 +99,16 @@ impl TileMap<'_> {
         level: Side,
         upright: Side,
     ) -> Option<Candidate<S>> {
-        let radius = probe.outline.half.x;
-        if !self.has_corner(tile, level, upright) || !S::within(offset, radius + probe.margin) {
+        if !self.has_corner(tile, level, upright) {
             return None;
         }
-        let (normal, distance) = S::direction(offset)?;
-        let penetration = radius - distance;
+        let contact = rounded(offset, probe.outline.half.x, probe.margin, tile)?;
         // For what stands on a one-way tile, the corner of the solid tile beside it is a seam.
-        if upright == Side::Top && penetration <= probe.graze && self.continues(tile, level) {
+        if upright == Side::Top && contact.penetration <= probe.graze && self.continues(tile, level) {
             return None;
         }
         let direction = 4 + u8::from(level == Side::Right) + 2 * u8::from(upright == Side::Bottom);
-        Some(Candidate { direction, aside: S::Real::ZERO, contact: TileContact { normal, penetration, tile } })
+        Some(Candidate { direction, aside: S::Real::ZERO, contact })
     }
 
     /// What is above a one-way tile touches its top; a circle beside it the end of the top.
@@ -138,11 +135,8 @@ impl TileMap<'_> {
             if probe.outline.circle && offset.x != zero {
                 let radius = probe.outline.half.x;
                 let (column, row) = nearer.beside(tile.column.into(), tile.row.into());
-                if !S::within(offset, radius + probe.margin) || self.is_solid(column, row.wrapping_sub(1)) {
-                    return None;
-                }
-                let (normal, distance) = S::direction(offset)?;
-                return Some(TileContact { normal, penetration: radius - distance, tile });
+                let ends = !self.is_solid(column, row.wrapping_sub(1));
+                return if ends { rounded(offset, radius, probe.margin, tile) } else { None };
             }
             let [left, right, ..] = self.depths(probe.outline, tile);
             if left <= S::Real::ZERO || right <= S::Real::ZERO {
@@ -204,6 +198,21 @@ impl TileMap<'_> {
 fn face<S: Scalar>(side: Side, penetration: S::Real, aside: S::Real, tile: Tile) -> Candidate<S> {
     let contact = TileContact { normal: side.inward::<S>(), penetration, tile };
     Candidate { direction: side as u8, aside, contact }
+}
+
+/// A circle near a point of a tile, to which `offset` leads from its centre; none if it is further away than `margin`.
+#[inline(never)]
+pub(super) fn rounded<S: Scalar>(
+    offset: Vec2<S::Real>,
+    radius: S::Real,
+    margin: S::Real,
+    tile: Tile,
+) -> Option<TileContact<S>> {
+    if !S::within(offset, radius + margin) {
+        return None;
+    }
+    let (normal, distance) = S::direction(offset)?;
+    Some(TileContact { normal, penetration: radius - distance, tile })
 }
 
 /// From a point to the closest one of a box.
