@@ -59,6 +59,7 @@ impl<S: Scalar> Outline<S> {
 
 /// What is left of a motion's start and end: the part of it that is done at `time`, 0..=1.
 #[must_use]
+#[inline(never)]
 pub fn part<S: Scalar>(motion: Vec2<S::Real>, time: S::Unit) -> Vec2<S::Real> {
     if time == S::UNIT { motion } else { motion.map(|component| S::length_times(component, time)) }
 }
@@ -118,12 +119,20 @@ fn away<S: Scalar>(offset: S::Real) -> S::Unit {
     if offset < S::Real::ZERO { S::UNIT } else { -S::UNIT }
 }
 
+/// [`Scalar::direction`] where code counts for more than speed.
+#[inline(never)]
+pub(crate) fn direction<S: Scalar>(offset: Vec2<S::Real>) -> Option<(Vec2<S::Unit>, S::Real)> {
+    S::direction(offset)
+}
+
 /// Component of a vector along a direction.
+#[inline(never)]
 pub(crate) fn along<S: Scalar>(vector: Vec2<S::Real>, direction: Vec2<S::Unit>) -> S::Real {
     S::length_times(vector.x, direction.x).saturating_add(S::length_times(vector.y, direction.y))
 }
 
 /// A vector without its component against a normal.
+#[inline(never)]
 pub(crate) fn without<S: Scalar>(vector: Vec2<S::Real>, normal: Vec2<S::Unit>) -> Vec2<S::Real> {
     let into = along::<S>(vector, normal).lesser(S::Real::ZERO);
     vector.saturating_sub(normal.map(|component| S::length_times(into, component)))

@@ -15,11 +15,13 @@ pub struct Bounds<S: Scalar> {
 
 impl<S: Scalar> Bounds<S> {
     /// Around a shape.
+    #[inline(never)]
     pub fn of(outline: &Outline<S>) -> Self {
         Self { min: outline.centre.saturating_sub(outline.half), max: outline.centre.saturating_add(outline.half) }
     }
 
     /// Around all places of a shape that makes a motion.
+    #[inline(never)]
     pub fn swept(outline: &Outline<S>, motion: Vec2<S::Real>) -> Self {
         let start = Self::of(outline);
         let zero = S::Real::ZERO;
@@ -31,6 +33,7 @@ impl<S: Scalar> Bounds<S> {
 
     /// Wider by so much on all sides.
     #[must_use]
+    #[inline(never)]
     pub fn grown(&self, margin: S::Real) -> Self {
         let margin = vec2(margin, margin);
         Self { min: self.min.saturating_sub(margin), max: self.max.saturating_add(margin) }

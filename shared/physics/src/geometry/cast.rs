@@ -27,6 +27,7 @@ impl<S: Scalar> From<Penetration<S>> for Hit<S> {
 ///
 /// Touching is not meeting: none if the shapes only graze, touch at the end, or touch and move along each other or apart. Shapes
 /// that overlap from the start always meet, wherever they move: see [`Hit::depth`].
+#[inline(never)]
 pub fn cast<S: Scalar>(mover: &Outline<S>, motion: Vec2<S::Real>, target: &Outline<S>) -> Option<Hit<S>> {
     Sum::of(mover, target).cast(motion)
 }

@@ -1,6 +1,6 @@
 //! Which shapes overlap or touch, how deep, and the shortest way apart.
 
-use super::{Outline, Sum, away, gap};
+use super::{Outline, Sum, away, direction, gap};
 use crate::scalar::{Exact, Quantity, Scalar};
 use crate::vec2::{Vec2, vec2};
 
@@ -35,6 +35,7 @@ pub fn penetration<S: Scalar>(first: &Outline<S>, second: &Outline<S>) -> Option
 
 impl<S: Scalar> Sum<S> {
     /// Whether the first one's centre lies inside.
+    #[inline(never)]
     pub(super) fn is_entered(&self) -> bool {
         let inside = |offset, reach| gap::<S>(offset, reach) < S::Real::ZERO;
         inside(self.offset.x, self.reach.x)
@@ -44,7 +45,7 @@ impl<S: Scalar> Sum<S> {
 
     /// The shortest way out for the first one's centre, which lies inside.
     pub(super) fn way_out(&self) -> Penetration<S> {
-        if let Some((direction, distance)) = self.corner_from(self.offset).and_then(S::direction) {
+        if let Some((direction, distance)) = self.corner_from(self.offset).and_then(direction::<S>) {
             return Penetration { normal: -direction, depth: (self.round - distance).greater(S::Real::NUDGE) };
         }
         let (x, y) = (self.reach.x - self.offset.x.abs(), self.reach.y - self.offset.y.abs());

@@ -291,6 +291,7 @@ fn may_hold<S: Scalar>(tile: Tile, slot: u16, world: &World<'_, S>) -> bool {
 }
 
 /// A body that is swept, smaller by a skin.
+#[inline(never)]
 fn inner<S: Scalar>(body: &Body<S>) -> Outline<S> {
     let outline = Outline::of(body);
     let skin = S::real(SKIN).lesser(S::half(least(body)));
@@ -318,6 +319,7 @@ fn motion<S: Scalar>(slot: u16, world: &World<'_, S>, switches: impl Switches) -
 
 /// Leaves a part of what is left of a body's motion. Whether so much is lost that who follows close may run into it; or, if it is
 /// as much as half of the body, who follows from further away.
+#[inline(never)]
 fn cut<S: Scalar>(body: &mut Body<S>, motion: Vec2<S::Real>, time: S::Unit) -> bool {
     let whole = i32::from(i16::MAX);
     let rest = (whole - i32::from(body.push)) * (whole - i32::from(S::cut(time))) / whole;

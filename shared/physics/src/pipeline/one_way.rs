@@ -47,6 +47,7 @@ pub(crate) fn comes_from_above<S: Scalar>(normal: Vec2<S::Unit>, above: S::Real,
 }
 
 /// How far a body's lower edge is above a platform's surface.
+#[inline(never)]
 pub(crate) fn above<S: Scalar>(a: &Body<S>, platform: &Body<S>, ground: Ground) -> S::Real {
     let halves = ground.depth(a.half).abs() + ground.depth(platform.half).abs();
     ground.depth(platform.position - a.position) - halves

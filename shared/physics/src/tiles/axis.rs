@@ -71,7 +71,7 @@ impl Axis {
     }
 
     /// What an interval overlaps or touches.
-    #[inline]
+    #[inline(never)]
     pub(super) fn span<S: Scalar>(&self, low: S::Real, high: S::Real) -> Range<u32> {
         // The last px that begins below `low`, so that touching counts on both sides alike.
         let first = S::floor(S::Real::ZERO.saturating_sub(low))

@@ -2,7 +2,7 @@
 
 use super::contacts::TileContact;
 use super::map::{Side, Tile, TileMap, is_one_way, is_solid};
-use crate::geometry::{Bounds, Outline};
+use crate::geometry::{Bounds, Outline, direction};
 use crate::scalar::{Quantity, Scalar, ratio};
 use crate::vec2::{Vec2, vec2};
 
@@ -179,18 +179,25 @@ impl TileMap<'_> {
     /// last of those beside it. Downwards, to the left or to the right only if that is shorter than upwards.
     #[cold]
     pub(super) fn way_out<S: Scalar>(&self, probe: &Probe<'_, S>, inside: Tile) -> Candidate<S> {
-        let exit = |side: Side| {
-            let mut tile = inside;
-            while let Some(next) = side.solid_beside(self, tile) {
-                tile = next;
+        let mut best = self.way_through(probe, inside, Side::Top);
+        for side in [Side::Bottom, Side::Left, Side::Right] {
+            let next = self.way_through(probe, inside, side);
+            if next.contact.penetration < best.contact.penetration {
+                best = next;
             }
-            let penetration = self.depths(probe.outline, tile)[side as usize];
-            face(side, penetration, S::Real::ZERO, tile)
-        };
-        let shorter = |best: Candidate<S>, next: Candidate<S>| {
-            if next.contact.penetration < best.contact.penetration { next } else { best }
-        };
-        [Side::Bottom, Side::Left, Side::Right].map(exit).into_iter().fold(exit(Side::Top), shorter)
+        }
+        best
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn way_through<S: Scalar>(&self, probe: &Probe<'_, S>, inside: Tile, side: Side) -> Candidate<S> {
+        let mut tile = inside;
+        while let Some(next) = side.solid_beside(self, tile) {
+            tile = next;
+        }
+        let penetration = self.depths(probe.outline, tile)[side as usize];
+        face(side, penetration, S::Real::ZERO, tile)
     }
 }
 
@@ -211,7 +218,7 @@ pub(super) fn rounded<S: Scalar>(
     if !S::within(offset, radius + margin) {
         return None;
     }
-    let (normal, distance) = S::direction(offset)?;
+    let (normal, distance) = direction::<S>(offset)?;
     Some(TileContact { normal, penetration: radius - distance, tile })
 }
 
