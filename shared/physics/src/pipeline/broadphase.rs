@@ -285,15 +285,19 @@ fn look_for_tiles<S: Scalar>(
     tiles: &TileMap<'_>,
     profiles: &[Profile<S>],
 ) {
-    if !profiles[usize::from(slot)].meets(&profiles[usize::from(map)]) {
-        return;
-    }
+    // Most are near nothing: that is asked first.
+    let meets = || profiles[usize::from(slot)].meets(&profiles[usize::from(map)]);
     let speed = body.velocity.map(S::in_a_step);
     let reach = S::real(px(2 * SKIN)) + speed.x.abs().greater(speed.y.abs());
     if body.status.is_rigid() && !body.status.is_sensor() {
-        update.note_terrain(slot, map, terrain::room(tiles, body, reach), profiles);
+        let room = terrain::room(tiles, body, reach);
+        if room > 0 && meets() {
+            update.note_terrain(slot, map, room, profiles);
+        }
     }
-    terrain::sensors(tiles, body, reach, |number| update.note_sensor_tile(slot, map, number, profiles));
+    if tiles.sensors() > 0 && meets() {
+        terrain::sensors(tiles, body, reach, |number| update.note_sensor_tile(slot, map, number, profiles));
+    }
 }
 
 /// The neighbourhood of a body: whom it may touch before both have moved by a skin, or in this step at their speeds.

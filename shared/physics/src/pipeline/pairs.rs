@@ -66,9 +66,6 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
 
     /// Makes room for so many contacts of a body with the tile map.
     pub(crate) fn note_terrain(&mut self, a: u16, terrain: u16, count: usize, profiles: &[Profile<S>]) {
-        if count == 0 {
-            return;
-        }
         let blocking = |contact: &Contact<S>| contact.b == terrain && !contact.flags.has(Flags::SENSOR);
         // What bears the body stays, and what else there is room for.
         let mut kept = self.keep(a, |contact| blocking(contact) && terrain::is_in_use(contact), count);

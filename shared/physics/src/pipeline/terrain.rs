@@ -43,11 +43,9 @@ pub(crate) fn room<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, reach: S::Rea
 
 /// The sensor tiles that a body may overlap by then.
 pub(crate) fn sensors<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, reach: S::Real, mut visit: impl FnMut(u32)) {
-    if tiles.sensors() > 0 {
-        let bounds = Bounds::of(&Outline::of(body)).grown(reach);
-        for tile in tiles.tiles_in(&bounds).filter(|tile| tile.flags.is_sensor()) {
-            visit(number(tiles, tile));
-        }
+    let bounds = Bounds::of(&Outline::of(body)).grown(reach);
+    for tile in tiles.tiles_in(&bounds).filter(|tile| tile.flags.is_sensor()) {
+        visit(number(tiles, tile));
     }
 }
 

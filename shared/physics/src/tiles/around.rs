@@ -81,10 +81,6 @@ impl TileMap<'_> {
         };
         let radius = circle.half.x;
         let reach = radius.saturating_add(margin);
-        let solid = |column: u32, row: u32| {
-            let bits = self.byte(row * self.axes().0.count() + column);
-            is_solid(bits).then(|| Tile::new(column, row, bits))
-        };
         // Sides without a face, within reach.
         let mut open = [false; 4];
         for side in SIDES {
@@ -92,7 +88,7 @@ impl TileMap<'_> {
             if gap > reach {
                 continue;
             }
-            if let Some(tile) = solid(column, row) {
+            if let Some(tile) = self.solid_at(column, row) {
                 visit(TileContact { normal: side.opposite().inward::<S>(), penetration: radius - gap, tile });
             } else {
                 open[side as usize] = true;
@@ -102,14 +98,35 @@ impl TileMap<'_> {
         for upright in [Side::Top, Side::Bottom] {
             for level in [Side::Left, Side::Right] {
                 if open[upright as usize] && open[level as usize] {
-                    let (column, row) = level.beside(place.column, place.row);
-                    let (column, row) = upright.beside(column, row);
-                    let offset = vec2(place.edge(level), place.edge(upright));
-                    let corner = solid(column, row).and_then(|tile| rounded(offset, radius, margin, tile));
-                    corner.into_iter().for_each(&mut *visit);
+                    let (column, _) = level.beside(place.column, place.row);
+                    let (_, row) = upright.beside(place.column, place.row);
+                    if let Some(tile) = self.solid_at(column, row) {
+                        let offset = vec2(place.edge(level), place.edge(upright));
+                        visit_corner(offset, radius, margin, tile, visit);
+                    }
                 }
             }
         }
+    }
+
+    /// The tile at coordinates that are in the map, if it is solid.
+    #[inline]
+    fn solid_at(&self, column: u32, row: u32) -> Option<Tile> {
+        let bits = self.byte(row * self.axes().0.count() + column);
+        is_solid(bits).then(|| Tile::new(column, row, bits))
+    }
+}
+
+#[inline(never)]
+fn visit_corner<S: Scalar>(
+    offset: Vec2<S::Real>,
+    radius: S::Real,
+    margin: S::Real,
+    tile: Tile,
+    visit: &mut dyn FnMut(TileContact<S>),
+) {
+    if let Some(contact) = rounded(offset, radius, margin, tile) {
+        visit(contact);
     }
 }
 
