@@ -260,7 +260,7 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
             }
         };
         sweep.visit(rank, dynamics, &near, bodies, &mut note);
-        if body.status.is_rigid() || sensors {
+        if !grid.is_empty() && (body.status.is_rigid() || sensors) {
             // Whoever sleeps is found by rigid bodies; others have woken it if they move.
             let finds = |other: u16| body.status.is_rigid() || bodies[usize::from(other)].status.is_static();
             grid.visit(&near.bounds(), bodies, &mut |other| {

@@ -144,11 +144,14 @@ impl<'a> Grid<'a> {
         }
     }
 
+    /// Whether there are no static bodies.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.ends[BUCKETS - 1] == 0
+    }
+
     /// Notes all static bodies whose bounding boxes touch these bounds, each once.
     pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
-        if self.ends[BUCKETS - 1] == 0 {
-            return;
-        }
         let cells = Cells::of(bounds, self.shift);
         cells.each_bucket(|bucket| {
             let start = if bucket == 0 { 0 } else { self.ends[bucket - 1] };
