@@ -191,7 +191,6 @@ pub(crate) fn update<S: Scalar>(world: &mut World<'_, S>, switches: impl Switche
     }
     world.travel = S::Speed::ZERO;
     find_pairs(world, switches);
-    world.fastest = fastest(world);
 }
 
 /// Sorts bodies towards another ground, if gravity pulls elsewhere: what bears whom is then another matter.
@@ -200,12 +199,6 @@ fn turn<S: Scalar>(world: &mut World<'_, S>, ground: Ground) {
         (world.layers.ground, world.layers.dirty) = (ground, true);
         world.pool.all_mut().iter_mut().for_each(|contact| contact.flags.set(Flags::NEW));
     }
-}
-
-/// Largest velocity component.
-fn fastest<S: Scalar>(world: &World<'_, S>) -> S::Speed {
-    let speeds = world.layers.dynamics().iter().map(|&slot| world.bodies[usize::from(slot)].velocity);
-    speeds.fold(S::Speed::ZERO, integrate::larger)
 }
 
 /// Finds all pairs that there is room for. If there isn't room for all, those that bear somebody come first.
@@ -230,7 +223,8 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let sensors = switches.on(Effects::SENSORS);
     let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
     let terrain = world.terrain;
-    let World { bodies, profiles, layers, pool, tiles, smallest, .. } = world;
+    let World { bodies, profiles, layers, pool, tiles, smallest, fastest, .. } = world;
+    let (bodies, profiles) = (&**bodies, &**profiles);
     if !tell_ends {
         pool.forget_aside();
     }
@@ -243,29 +237,27 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
         let sizes = layers.dynamics().iter().map(|&slot| &bodies[usize::from(slot)].half);
         *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
     }
+    let speeds = layers.dynamics().iter().map(|&slot| bodies[usize::from(slot)].velocity);
+    *fastest = speeds.fold(S::Speed::ZERO, integrate::larger);
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);
     let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
+    let pairs = Pairs { bodies, profiles, ground, sensors, wanted, changed };
+    let closing = S::in_a_step(fastest.saturating_add(*fastest));
     let mut sweep = Sweep::new(links, dynamics, bodies, ground);
     for (rank, &slot) in dynamics.iter().enumerate() {
         let body = &bodies[usize::from(slot)];
         if !body.status.collides() {
             continue;
         }
-        let near = Near::new(body);
-        let mut note = |upper: u16, lower: u16| {
-            let is_wanted = wanted == Wanted::All || may_bear(upper, lower, bodies, ground);
-            if is_wanted && meet(upper, lower, bodies, profiles, sensors) {
-                update.note(upper, lower, bodies, profiles);
-            }
-        };
-        sweep.visit(rank, dynamics, &near, bodies, &mut note);
+        let near = Near::new(body, closing);
+        sweep.visit(rank, dynamics, &near, &pairs, &mut update);
         if !grid.is_empty() && (body.status.is_rigid() || sensors) {
             // Whoever sleeps is found by rigid bodies; others have woken it if they move.
             let finds = |other: u16| body.status.is_rigid() || bodies[usize::from(other)].status.is_static();
             grid.visit(&near.bounds(), bodies, &mut |other| {
                 if finds(other) {
-                    note(slot, other);
+                    pairs.note(slot, other, &mut update);
                 }
             });
         }
@@ -274,6 +266,55 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
         }
     }
     update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
+}
+
+/// What a search needs to know to tell which pairs of bodies count.
+struct Pairs<'w, S: Scalar> {
+    bodies: &'w [Body<S>],
+    profiles: &'w [Profile<S>],
+    ground: Ground,
+    sensors: bool,
+    wanted: Wanted,
+    /// Bodies came, went or changed since the last search: a pair of then may not be one now.
+    changed: bool,
+}
+
+impl<S: Scalar> Pairs<'_, S> {
+    /// Whether a pair of this upper body's that has a contact is still one.
+    #[inline]
+    fn are_known_of(&self, upper: &Body<S>) -> bool {
+        !self.changed && upper.status.is_rigid() && self.wanted == Wanted::All
+    }
+
+    /// Notes two bodies that are near, `upper` after `lower` in the order, if anything happens when they touch.
+    #[cold]
+    #[inline(never)]
+    fn note(&self, upper: u16, lower: u16, update: &mut Update<'_, '_, S>) {
+        let [first, second] = [upper, lower].map(|slot| self.bodies[usize::from(slot)].status);
+        if !(first.is_rigid() || second.is_rigid() || self.sensors) {
+            return;
+        }
+        // What can be pushed comes first; what is immovable pushes. Of two that are, one is a sensor.
+        let (a, b) = if first.is_rigid() || !second.is_rigid() { (upper, lower) } else { (lower, upper) };
+        if self.wanted == Wanted::Bearing && !may_bear(upper, lower, self.bodies, self.ground) {
+            return;
+        }
+        if self.changed && !self.meet(a, b) {
+            return;
+        }
+        if !update.keep_pair(update.group(a), a, b) && (self.changed || self.meet(a, b)) {
+            update.add_pair(a, b, self.bodies, self.profiles);
+        }
+    }
+
+    /// Whether anything happens when two bodies touch of which one is rigid, or sensors are on.
+    fn meet(&self, a: u16, b: u16) -> bool {
+        let [first, second] = [a, b].map(|slot| self.bodies[usize::from(slot)].status);
+        (first.is_rigid() || second.is_rigid() || first.is_sensor() || second.is_sensor())
+            && first.collides()
+            && second.collides()
+            && self.profiles[usize::from(a)].meets(&self.profiles[usize::from(b)])
+    }
 }
 
 /// Makes room for what a body may touch of the tile map before it has moved by a skin, or in this step at its speed.
@@ -306,23 +347,23 @@ struct Near<S: Scalar> {
     /// Half extents and two skins.
     reach: Vec2<S::Real>,
     velocity: Vec2<S::Speed>,
+    /// How far any two bodies come together in a step, at most.
+    closing: S::Real,
 }
 
 impl<S: Scalar> Near<S> {
     #[inline]
-    fn new(body: &Body<S>) -> Self {
+    fn new(body: &Body<S>, closing: S::Real) -> Self {
         let margin = S::real(px(2 * SKIN));
-        Self { centre: body.position, reach: body.half.map(|half| half + margin), velocity: body.velocity }
+        Self { centre: body.position, reach: body.half.map(|half| half + margin), velocity: body.velocity, closing }
     }
 
     #[inline]
     fn may_meet(&self, other: &Body<S>) -> bool {
-        // Most are too far aside: that is asked first.
+        // Most are too far aside: that is asked first, and speeds only where they matter.
         let apart = |offset: S::Real, reach: S::Real, own: S::Speed, other: S::Speed| {
             let space = offset.abs() - reach;
-            // The other may be stopped in this step: then the own speed counts.
-            let speed = other.saturating_sub(own).abs().greater(own.abs());
-            space > S::Real::ZERO && space > S::in_a_step(speed)
+            space > S::Real::ZERO && (space > self.closing || space > approach::<S>(own, other))
         };
         !apart(other.position.x - self.centre.x, self.reach.x + other.half.x, self.velocity.x, other.velocity.x)
             && !apart(other.position.y - self.centre.y, self.reach.y + other.half.y, self.velocity.y, other.velocity.y)
@@ -333,6 +374,13 @@ impl<S: Scalar> Near<S> {
         let speed = self.velocity.map(|v| S::in_a_step(v).abs());
         Bounds::around(self.centre, self.reach + speed)
     }
+}
+
+/// How far two bodies come together along an axis in a step.
+#[inline(never)]
+fn approach<S: Scalar>(own: S::Speed, other: S::Speed) -> S::Real {
+    // The other may be stopped in this step: then the own speed counts.
+    S::in_a_step(other.saturating_sub(own).abs().greater(own.abs()))
 }
 
 /// Whether a body may be borne by another: one that is immovable, or that lies rather below than beside it; and they are as good as
@@ -347,15 +395,6 @@ fn may_bear<S: Scalar>(upper: u16, lower: u16, bodies: &[Body<S>], ground: Groun
     let is_firm = !a.status.is_rigid() || !b.status.is_rigid();
     let (aside, away) = if ground.is_horizontal() { (gap.y, gap.x) } else { (gap.x, gap.y) };
     aside <= margin && away <= margin && (is_firm || aside <= away)
-}
-
-/// Whether anything happens when two bodies touch.
-#[inline]
-fn meet<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>], sensors: bool) -> bool {
-    let (first, second) = (bodies[usize::from(a)].status, bodies[usize::from(b)].status);
-    (first.is_rigid() || second.is_rigid() || (sensors && (first.is_sensor() || second.is_sensor())))
-        && second.collides()
-        && profiles[usize::from(a)].meets(&profiles[usize::from(b)])
 }
 
 /// The bodies that the sweep has passed and not yet left behind.
@@ -415,14 +454,14 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
         rank: usize,
         order: &[u16],
         near: &Near<S>,
-        bodies: &[Body<S>],
-        note: &mut impl FnMut(u16, u16),
+        pairs: &Pairs<'_, S>,
+        update: &mut Update<'_, '_, S>,
     ) {
         let slot = order[rank];
-        let body = &bodies[usize::from(slot)];
+        let body = &pairs.bodies[usize::from(slot)];
         let extent = self.extent(body);
         if extent > self.reach {
-            self.visit_wide(rank, order, near, bodies, note);
+            self.visit_wide(rank, order, near, pairs, update);
             return;
         }
         let (depth, across) = (self.ground.depth(body.position), self.ground.across(body.position));
@@ -431,19 +470,21 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
         let column = |x: R| S::floor(x) >> self.shift;
         let (first, last) = (column(across.saturating_sub(reach)), column(across.saturating_add(reach)));
         let home = column(across);
+        let group = if pairs.are_known_of(body) { update.group(slot) } else { NONE };
         for column in first..=last {
             let head = &mut self.columns[column as usize % COLUMNS];
             let (mut previous, mut other) = (NONE, *head);
             while other != NONE {
-                let waiting = &bodies[usize::from(other)];
-                if self.ground.depth(waiting.position) > behind {
+                let waiting = &pairs.bodies[usize::from(other)];
+                if near.may_meet(waiting) {
+                    if !update.keep_pair(group, slot, other) {
+                        pairs.note(slot, other, update);
+                    }
+                } else if self.ground.depth(waiting.position) > behind {
                     // It came before all that follow it in the list: they are behind as well.
                     let link = if previous == NONE { &mut *head } else { &mut self.links[usize::from(previous)] };
                     *link = NONE;
                     break;
-                }
-                if near.may_meet(waiting) {
-                    note(slot, other);
                 }
                 previous = other;
                 other = self.links[usize::from(other)];
@@ -456,33 +497,40 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
 
     /// The same for a large or fast body, which doesn't wait: it looks at all whose depth it reaches, passed and to come.
     #[cold]
+    #[inline(never)]
     fn visit_wide<S: Scalar<Real = R, Speed = T>>(
         &mut self,
         rank: usize,
         order: &[u16],
         near: &Near<S>,
-        bodies: &[Body<S>],
-        note: &mut impl FnMut(u16, u16),
+        pairs: &Pairs<'_, S>,
+        update: &mut Update<'_, '_, S>,
     ) {
         let slot = order[rank];
-        let body = &bodies[usize::from(slot)];
+        let body = &pairs.bodies[usize::from(slot)];
         let (depth, extent) = (self.ground.depth(body.position), self.extent(body));
-        // Notes one that would wait, if it is near; false once the search is beyond the reach of any such.
-        let mut look = |other: u16, is_lower: bool| {
-            let waits = &bodies[usize::from(other)];
-            if waits.status.collides() && near.may_meet(waits) && self.extent(waits) <= self.reach {
-                let (upper, lower) = if is_lower { (slot, other) } else { (other, slot) };
-                note(upper, lower);
-            }
-            (self.ground.depth(waits.position) - depth).abs() <= extent.saturating_add(self.reach)
+        let reach = extent.saturating_add(self.reach);
+        let is_reached =
+            |&&other: &&u16| (self.ground.depth(pairs.bodies[usize::from(other)].position) - depth).abs() <= reach;
+        let waits = |other: u16| {
+            let other = &pairs.bodies[usize::from(other)];
+            other.status.collides() && near.may_meet(other) && self.extent(other) <= self.reach
         };
-        let _ = order[..rank].iter().rev().all(|&other| look(other, true));
-        let _ = order[rank + 1..].iter().all(|&other| look(other, false));
+        for &other in order[..rank].iter().rev().take_while(is_reached) {
+            if waits(other) {
+                pairs.note(slot, other, update);
+            }
+        }
+        for &other in order[rank + 1..].iter().take_while(is_reached) {
+            if waits(other) {
+                pairs.note(other, slot, update);
+            }
+        }
         // Two of this kind are found by the upper one.
         let mut other = self.wide;
         while other != NONE {
-            if near.may_meet(&bodies[usize::from(other)]) {
-                note(slot, other);
+            if near.may_meet(&pairs.bodies[usize::from(other)]) {
+                pairs.note(slot, other, update);
             }
             other = self.links[usize::from(other)];
         }

@@ -41,26 +41,37 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
         Self { pool, groups, old, kept: 0, regroup: scattered }
     }
 
-    /// Notes that two bodies may touch; `upper` comes after `lower` in the order.
-    pub(crate) fn note(&mut self, upper: u16, lower: u16, bodies: &[Body<S>], profiles: &[Profile<S>]) {
-        // What can be pushed comes first; what is immovable pushes. Of two that are, one is a sensor.
-        let (first, second) = (bodies[usize::from(upper)].status, bodies[usize::from(lower)].status);
-        let (a, b) = if first.is_rigid() || !second.is_rigid() { (upper, lower) } else { (lower, upper) };
-        if let Some(contact) = self.find(a, b) {
-            contact.flags.set(Flags::KEPT);
-            self.kept += 1;
-        } else if !bodies[usize::from(b)].status.is_static()
-            && let Some(contact) = self.find(b, a)
+    /// Where a body's contacts begin, or none.
+    #[inline]
+    pub(crate) fn group(&self, a: u16) -> u16 {
+        self.groups[usize::from(a)]
+    }
+
+    /// Keeps the contact between two bodies, if there was one. `group`: where those of the first begin.
+    #[inline]
+    pub(crate) fn keep_pair(&mut self, group: u16, a: u16, b: u16) -> bool {
+        let Some(contact) = self.find(group, a, b) else {
+            return false;
+        };
+        contact.flags.set(Flags::KEPT);
+        self.kept += 1;
+        true
+    }
+
+    /// Adds a contact between two bodies that there was none between in this order.
+    #[cold]
+    pub(crate) fn add_pair(&mut self, a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>]) {
+        self.regroup = true;
+        if !bodies[usize::from(b)].status.is_static()
+            && let Some(contact) = self.find(self.group(b), b, a)
         {
             // They have changed places in the order. Turned around, the same impulses push the same bodies.
             (contact.a, contact.b) = (a, b);
             contact.share = S::UNIT - contact.share;
             contact.flags.set(Flags::KEPT.or(Flags::NEW));
             self.kept += 1;
-            self.regroup = true;
         } else {
             self.pool.push(found(a, b, bodies, profiles));
-            self.regroup = true;
         }
     }
 
@@ -106,13 +117,10 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
     }
 
     /// The contact between two bodies, if there was one.
-    fn find(&mut self, a: u16, b: u16) -> Option<&mut Contact<S>> {
-        let first = self.groups[usize::from(a)];
-        if first == NONE {
-            return None;
-        }
-        let group = &mut self.pool.all_mut()[usize::from(first)..self.old];
-        group.iter_mut().take_while(|contact| contact.a == a).find(|contact| contact.b == b)
+    #[inline]
+    fn find(&mut self, group: u16, a: u16, b: u16) -> Option<&mut Contact<S>> {
+        let contacts = self.pool.all_mut().get_mut(usize::from(group)..self.old)?;
+        contacts.iter_mut().take_while(|contact| contact.a == a).find(|contact| contact.b == b)
     }
 
     /// Drops what nobody noted, and brings the rest into groups. `places` is scratch space, one a body.
@@ -125,19 +133,23 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
         ground: Ground,
         tell_ends: bool,
     ) {
-        if self.kept < self.old {
+        let have_parted = self.kept < self.old;
+        if have_parted {
             for contact in self.pool.all_mut() {
                 if contact.has_parted() {
                     contact.part(profiles);
                 }
             }
-            self.pool.set_aside(tell_ends);
         }
         if self.regroup {
-            regroup(self.pool.all_mut(), order, self.groups, places);
-            for group in self.pool.all_mut().chunk_by_mut(|one, next| one.a == next.a) {
+            let contacts = self.pool.all_mut();
+            let count = regroup(contacts, order, self.groups, places);
+            for group in contacts[..count].chunk_by_mut(|one, next| one.a == next.a) {
                 sort_group(group, bodies, ground);
             }
+        }
+        if have_parted {
+            self.pool.set_aside(tell_ends);
         }
     }
 }
@@ -175,13 +187,13 @@ pub(crate) fn define<S: Scalar>(contact: &mut Contact<S>, bodies: &[Body<S>], pr
     contact.friction = own.friction.min(other.friction);
 }
 
-/// Moves every contact into the group of its upper body, in place (P. `McIlroy`, K. Bostic and M. `McIlroy`, "Engineering
-/// Radix Sort", 1993: each swap brings at least one to its group).
-fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [u16], next: &mut [u16]) {
+/// Moves every contact into the group of its upper body, in place, and those that have parted behind them all; how many last (P.
+/// `McIlroy`, K. Bostic and M. `McIlroy`, "Engineering Radix Sort", 1993: each swap brings at least one to its group).
+fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [u16], next: &mut [u16]) -> usize {
     for &slot in order {
         next[usize::from(slot)] = 0;
     }
-    for contact in &*contacts {
+    for contact in contacts.iter().filter(|contact| !contact.has_parted()) {
         next[usize::from(contact.a)] += 1;
     }
     let mut total = 0;
@@ -191,7 +203,7 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
         (*group, *next) = (total, total);
         total += count;
     }
-    let mut end = total;
+    let (mut end, mut parted) = (total, total);
     for &slot in order.iter().rev() {
         let slot = usize::from(slot);
         loop {
@@ -199,15 +211,17 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
             if place >= end {
                 break;
             }
-            let home = usize::from(contacts[usize::from(place)].a);
-            let goal = next[home];
-            next[home] += 1;
-            if home != slot {
-                contacts.swap(usize::from(place), usize::from(goal));
+            let contact = &contacts[usize::from(place)];
+            let goal = if contact.has_parted() { &mut parted } else { &mut next[usize::from(contact.a)] };
+            let free = *goal;
+            *goal += 1;
+            if free != place {
+                contacts.swap(usize::from(place), usize::from(free));
             }
         }
         end = groups[slot];
     }
+    usize::from(total)
 }
 
 /// Sorts a body's contacts by the other body: static ones last, the others in the order of bodies.
