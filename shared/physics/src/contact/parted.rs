@@ -50,10 +50,18 @@ impl<S: Scalar> Pool<'_, S> {
                 kept += 1;
             }
         }
+        self.set_aside_from(kept, tell);
+    }
+
+    /// The same, where all that have parted lie from a place on.
+    pub(crate) fn set_aside_from(&mut self, kept: usize, tell: bool) {
         let parted = core::mem::replace(&mut self.len, kept);
+        if !tell {
+            return;
+        }
         for place in (kept..parted).rev() {
             let contact = self.slots[place];
-            if tell && contact.flags.has(Flags::TOUCHING) {
+            if contact.flags.has(Flags::TOUCHING) {
                 // Places above this one have been dealt with, and so many of them were free.
                 self.aside += 1;
                 let free = self.slots.len() - self.asleep - self.aside;

@@ -25,15 +25,16 @@ use crate::world::World;
 /// How far bodies move before pairs are looked for again, px.
 const SKIN: i16 = 1;
 const COLUMNS: usize = 64;
+/// Bodies that the width of the columns is taken from, at most.
+const SAMPLE: usize = 64;
 
 /// What the broadphase keeps from step to step, and its scratch space: four entries a body.
 #[derive(Debug)]
 pub(crate) struct Layers<'a> {
-    /// Moving bodies in sweep order, then static and sleeping ones.
+    /// Moving bodies in sweep order; static and sleeping ones at the end.
     order: &'a mut [u16],
     dynamic_count: usize,
-    static_count: usize,
-    /// Bodies that sleep, among the static ones.
+    /// Bodies that sleep, which lie among the static ones.
     sleepers: usize,
     /// Next body in the same list of the sweep.
     links: &'a mut [u16],
@@ -59,7 +60,6 @@ impl<'a> Layers<'a> {
         Self {
             order,
             dynamic_count: 0,
-            static_count: 0,
             sleepers: 0,
             links,
             groups,
@@ -73,24 +73,13 @@ impl<'a> Layers<'a> {
 
     /// Becomes as another one of the same size is.
     pub(crate) fn copy_from(&mut self, other: &Layers<'_>) {
-        let Layers {
-            order,
-            dynamic_count,
-            static_count,
-            sleepers,
-            links,
-            groups,
-            grid,
-            ground,
-            dirty,
-            statics_dirty,
-            scattered,
-        } = other;
+        let Layers { order, dynamic_count, sleepers, links, groups, grid, ground, dirty, statics_dirty, scattered } =
+            other;
         self.order.copy_from_slice(order);
         self.links.copy_from_slice(links);
         self.groups.copy_from_slice(groups);
         self.grid.copy_from(grid);
-        (self.dynamic_count, self.static_count, self.sleepers) = (*dynamic_count, *static_count, *sleepers);
+        (self.dynamic_count, self.sleepers) = (*dynamic_count, *sleepers);
         (self.dirty, self.statics_dirty, self.scattered) = (*dirty, *statics_dirty, *scattered);
         self.ground = *ground;
     }
@@ -158,28 +147,27 @@ impl<'a> Layers<'a> {
             return;
         }
         self.dirty = false;
-        self.dynamic_count = gather(self.order, bodies, |body| !body.status.is_static() && !body.is_asleep());
-        let (dynamics, rest) = self.order.split_at_mut(self.dynamic_count);
-        self.static_count = gather(rest, bodies, |body| body.status.is_static() || body.is_asleep());
-        self.sleepers = rest[..self.static_count].iter().filter(|&&slot| bodies[usize::from(slot)].is_asleep()).count();
-        order::sort(dynamics, bodies, self.ground);
+        // Who moves is listed from the front, the others from the back.
+        let (mut dynamic_count, mut rest) = (0, self.order.len());
+        self.sleepers = 0;
+        for (slot, body) in bodies.iter().enumerate().filter(|(_, body)| body.status.is_enabled()) {
+            let place = if body.status.is_static() || body.is_asleep() {
+                self.sleepers += usize::from(body.is_asleep());
+                rest -= 1;
+                rest
+            } else {
+                dynamic_count += 1;
+                dynamic_count - 1
+            };
+            self.order[place] = slot as u16;
+        }
+        self.dynamic_count = dynamic_count;
+        order::sort(&mut self.order[..dynamic_count], bodies, self.ground);
         if self.statics_dirty {
             self.statics_dirty = false;
-            self.grid.rebuild(&rest[..self.static_count], bodies);
+            self.grid.rebuild(&self.order[rest..], bodies);
         }
     }
-}
-
-/// Lists the bodies of a kind that collide or move.
-fn gather<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], belongs: impl Fn(&Body<S>) -> bool) -> usize {
-    let mut count = 0;
-    for (slot, body) in bodies.iter().enumerate() {
-        if body.status.is_enabled() && belongs(body) {
-            list[count] = slot as u16;
-            count += 1;
-        }
-    }
-    count
 }
 
 /// Brings the pairs up to date, if bodies may have met since that was last done.
@@ -234,11 +222,11 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let changed = layers.dirty;
     layers.refresh(bodies);
     if changed {
+        let speeds = layers.dynamics().iter().map(|&slot| bodies[usize::from(slot)].velocity);
+        *fastest = speeds.fold(S::Speed::ZERO, integrate::larger);
         let sizes = layers.dynamics().iter().map(|&slot| &bodies[usize::from(slot)].half);
         *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
     }
-    let speeds = layers.dynamics().iter().map(|&slot| bodies[usize::from(slot)].velocity);
-    *fastest = speeds.fold(S::Speed::ZERO, integrate::larger);
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);
     let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
@@ -413,23 +401,21 @@ struct Sweep<'a, R, T> {
 }
 
 impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
-    /// Columns as wide as the mean body, and room for its mean speed.
+    /// Columns as wide as the mean body, and room for its mean speed: of some [`SAMPLE`], which is as good as of all.
     fn new<S: Scalar<Real = R, Speed = T>>(
         links: &'a mut [u16],
         order: &[u16],
         bodies: &[Body<S>],
         ground: Ground,
     ) -> Self {
-        let all = || order.iter().map(|&slot| &bodies[usize::from(slot)]);
-        let count = order.len().max(1) as u32;
-        let drift = S::mean_velocity(all().map(|body| body.velocity), count);
+        let step = order.len().div_ceil(SAMPLE).max(1);
+        let sample = || order.iter().step_by(step).map(|&slot| &bodies[usize::from(slot)]);
+        let count = order.len().div_ceil(step).max(1) as u32;
+        let drift = S::mean_velocity(sample().map(|body| body.velocity), count);
         let mut sweep = Self { links, columns: [NONE; COLUMNS], wide: NONE, shift: 0, reach: R::ZERO, drift, ground };
-        let mut width = 0;
-        for body in all() {
-            width += S::floor(skinned(body)) as u32;
-        }
+        let width: u32 = sample().map(|body| S::floor(skinned(body)) as u32).sum();
         sweep.shift = (2 * width.div_ceil(count)).max(4).next_power_of_two().trailing_zeros();
-        let speed = S::mean_length(all().map(|body| sweep.speed(body)), count);
+        let speed = S::mean_length(sample().map(|body| sweep.speed(body)), count);
         sweep.reach = S::real(px(1 << sweep.shift >> 1)) + speed + speed;
         sweep
     }
@@ -467,9 +453,9 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
         let (depth, across) = (self.ground.depth(body.position), self.ground.across(body.position));
         let reach = extent + self.reach;
         let behind = depth.saturating_add(self.reach + self.reach);
-        let column = |x: R| S::floor(x) >> self.shift;
-        let (first, last) = (column(across.saturating_sub(reach)), column(across.saturating_add(reach)));
-        let home = column(across);
+        let column = |x: i32| x >> self.shift;
+        let (centre, radius) = (S::floor(across), S::floor(reach) + 1);
+        let (first, last, home) = (column(centre - radius), column(centre + radius), column(centre));
         let group = if pairs.are_known_of(body) { update.group(slot) } else { NONE };
         for column in first..=last {
             let head = &mut self.columns[column as usize % COLUMNS];

@@ -134,21 +134,19 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
         tell_ends: bool,
     ) {
         let have_parted = self.kept < self.old;
-        if have_parted {
-            for contact in self.pool.all_mut() {
-                if contact.has_parted() {
-                    contact.part(profiles);
-                }
+        if have_parted && tell_ends {
+            for contact in self.pool.all_mut().iter_mut().filter(|contact| contact.has_parted()) {
+                contact.part(profiles);
             }
         }
         if self.regroup {
             let contacts = self.pool.all_mut();
-            let count = regroup(contacts, order, self.groups, places);
-            for group in contacts[..count].chunk_by_mut(|one, next| one.a == next.a) {
+            let kept = regroup(contacts, order, self.groups, places);
+            for group in contacts[..kept].chunk_by_mut(|one, next| one.a == next.a) {
                 sort_group(group, bodies, ground);
             }
-        }
-        if have_parted {
+            self.pool.set_aside_from(kept, tell_ends);
+        } else if have_parted {
             self.pool.set_aside(tell_ends);
         }
     }
