@@ -2,7 +2,7 @@
 
 use crate::body::Body;
 use crate::scalar::Scalar;
-use crate::vec2::Vec2;
+use crate::vec2::{Vec2, vec2};
 
 /// Cells along each side of the torus.
 const SIDE: i32 = 16;
@@ -61,8 +61,9 @@ impl Cells {
         Self { left: cell(min.x), top: cell(min.y), right: cell(max.x), bottom: cell(max.y) }
     }
 
+    #[inline]
     fn under<S: Scalar>(body: &Body<S>, shift: u32) -> Self {
-        Self::of(&Bounds::<S>::around(body.position, body.half), shift)
+        Self::of::<S>(&Bounds { min: vec2(body.left(), body.top()), max: vec2(body.right(), body.bottom()) }, shift)
     }
 
     /// Calls a function for every bucket.
@@ -77,8 +78,7 @@ impl Cells {
 
     /// The bucket of the cell in which two bodies' common part begins: there, and only there, the pair is reported.
     fn meeting_bucket(self, other: Self) -> usize {
-        let (x, y) = (self.left.max(other.left), self.top.max(other.top));
-        bucket(x, y)
+        bucket(self.left.max(other.left), self.top.max(other.top))
     }
 }
 
@@ -89,19 +89,25 @@ fn bucket(x: i32, y: i32) -> usize {
 
 /// The finest cells for so many bodies.
 fn finest<S: Scalar>(statics: &[u16], bodies: &[Body<S>]) -> u32 {
-    let spans = |shift: u32| {
-        let mut all = statics.iter().map(|&slot| Cells::under(&bodies[usize::from(slot)], shift));
-        let first = all.next()?;
-        let all = all.fold(first, |a, b| Cells {
-            left: a.left.min(b.left),
-            top: a.top.min(b.top),
-            right: a.right.max(b.right),
-            bottom: a.bottom.max(b.bottom),
-        });
-        Some((all.right - all.left).max(all.bottom - all.top))
+    if statics.len() > FEW {
+        return FINEST;
+    }
+    let all = statics.iter().map(|&slot| Cells::under(&bodies[usize::from(slot)], 0)).reduce(|a, b| Cells {
+        left: a.left.min(b.left),
+        top: a.top.min(b.top),
+        right: a.right.max(b.right),
+        bottom: a.bottom.max(b.bottom),
+    });
+    let Some(all) = all else {
+        return FINEST;
     };
-    let fits = |shift: &u32| statics.len() > FEW || spans(*shift).is_none_or(|span| span < SIDE);
-    (FINEST..COARSEST).find(fits).unwrap_or(COARSEST)
+    let mut shift = FINEST;
+    while shift < COARSEST
+        && ((all.right >> shift) - (all.left >> shift)).max((all.bottom >> shift) - (all.top >> shift)) >= SIDE
+    {
+        shift += 1;
+    }
+    shift
 }
 
 impl<'a> Grid<'a> {

@@ -230,7 +230,7 @@ fn coincident<S: Scalar>(a: &Body<S>, b: &Body<S>, scattered: Vec2<S::Real>) -> 
     let touch = a.half + b.half;
     if a.status.is_circle()
         && b.status.is_circle()
-        && let Some((normal, _)) = S::direction(scattered)
+        && let Some((normal, _)) = direction::<S>(scattered)
     {
         return Manifold { normal, axis: along::<S>(normal), gap: -touch.x };
     }
@@ -288,6 +288,12 @@ fn rounded<S: Scalar>(
     Some(Manifold { normal, axis: along::<S>(normal), gap })
 }
 
+/// The direction and the length of a vector, for all but the commonest pairs: in one place.
+#[inline(never)]
+fn direction<S: Scalar>(v: Vec2<S::Real>) -> Option<(Vec2<S::Unit>, S::Real)> {
+    S::direction(v)
+}
+
 /// The axis that a normal lies on.
 #[inline]
 fn along<S: Scalar>(normal: Vec2<S::Unit>) -> Option<Axis> {
@@ -316,7 +322,7 @@ pub(crate) fn leeway<S: Scalar>(
     if towards <= gap {
         return gap;
     }
-    let Some((direction, _)) = S::direction(motion) else {
+    let Some((direction, _)) = direction::<S>(motion) else {
         return gap;
     };
     let aside = S::length_times(offset.x, direction.y) - S::length_times(offset.y, direction.x);
@@ -415,7 +421,7 @@ fn circle_box<S: Scalar>(
         let gap = closest.x.abs() - radius;
         return (gap <= reach).then(|| Manifold::along(horizontal::<S>(closest), gap));
     }
-    let Some((normal, distance)) = S::direction(closest) else {
+    let Some((normal, distance)) = direction::<S>(closest) else {
         return Some(Manifold::along(Axis::Down, -radius));
     };
     rounded(closest, radius, normal, distance - radius, || Approach { closing, reach })

@@ -30,8 +30,14 @@ impl Ground {
     /// Component towards the ground.
     #[inline]
     pub(crate) fn depth<T: Quantity>(self, v: Vec2<T>) -> T {
-        let along = if self.horizontal { v.x } else { v.y };
+        let along = self.upright(v);
         if self.reversed { -along } else { along }
+    }
+
+    /// Component along gravity, whichever way it pulls: loops that ask for this alone don't come twice, once for each way.
+    #[inline]
+    pub(crate) fn upright<T: Quantity>(self, v: Vec2<T>) -> T {
+        if self.horizontal { v.x } else { v.y }
     }
 
     /// Component along the ground.
@@ -91,8 +97,8 @@ fn insert<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground, gap: 
 #[inline]
 pub(crate) fn precedes<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], ground: Ground) -> bool {
     let (first, second) = (&bodies[usize::from(a)], &bodies[usize::from(b)]);
-    let (low, high) = (ground.depth(first.position), ground.depth(second.position));
-    if low == high { breaks_tie(a, b, first, second, ground) } else { low > high }
+    let (one, other) = (ground.upright(first.position), ground.upright(second.position));
+    if one == other { breaks_tie(a, b, first, second, ground) } else { (one > other) != ground.reversed }
 }
 
 #[cold]

@@ -222,7 +222,7 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
     usize::from(total)
 }
 
-/// Sorts a body's contacts by the other body: static ones last, the others in the order of bodies.
+/// Sorts a body's contacts by the other body, in the order of bodies.
 fn sort_group<S: Scalar>(group: &mut [Contact<S>], bodies: &[Body<S>], ground: Ground) {
     for start in 1..group.len() {
         let mut place = start;
