@@ -401,7 +401,7 @@ struct Sweep<'a, R, T> {
 }
 
 impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
-    /// Columns as wide as the mean body, and room for its mean speed: of some [`SAMPLE`], which is as good as of all.
+    /// Columns as wide as the mean body, and room for thrice its speed: the mean of some [`SAMPLE`] is as good as that of all.
     fn new<S: Scalar<Real = R, Speed = T>>(
         links: &'a mut [u16],
         order: &[u16],
@@ -416,7 +416,8 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
         let width: u32 = sample().map(|body| S::floor(skinned(body)) as u32).sum();
         sweep.shift = (2 * width.div_ceil(count)).max(4).next_power_of_two().trailing_zeros();
         let speed = S::mean_length(sample().map(|body| sweep.speed(body)), count);
-        sweep.reach = S::real(px(1 << sweep.shift >> 1)) + speed + speed;
+        // With room for twice the mean, so many are too fast to wait in a heap that falls that it costs a quarter more.
+        sweep.reach = S::real(px(1 << sweep.shift >> 1)) + speed + speed + speed;
         sweep
     }
 
