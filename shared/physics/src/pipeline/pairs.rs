@@ -210,12 +210,22 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
                 break;
             }
             let contact = &contacts[usize::from(place)];
-            let goal = if contact.has_parted() { &mut parted } else { &mut next[usize::from(contact.a)] };
-            let free = *goal;
-            *goal += 1;
-            if free != place {
-                contacts.swap(usize::from(place), usize::from(free));
+            if usize::from(contact.a) == slot && !contact.has_parted() {
+                next[slot] += 1;
+                continue;
             }
+            // Lifted out, a contact takes the place of another until one comes that belongs here.
+            let mut held = *contact;
+            loop {
+                let goal = if held.has_parted() { &mut parted } else { &mut next[usize::from(held.a)] };
+                let free = *goal;
+                *goal += 1;
+                if free == place {
+                    break;
+                }
+                core::mem::swap(&mut held, &mut contacts[usize::from(free)]);
+            }
+            contacts[usize::from(place)] = held;
         }
         end = groups[slot];
     }
