@@ -139,6 +139,12 @@ impl<S: Scalar> Contact<S> {
         if self.flags.has(Flags::IMMOVABLE) { S::UNIT } else { self.share }
     }
 
+    /// The one of its bodies that isn't `slot`.
+    #[inline]
+    pub(crate) fn other(&self, slot: u16) -> u16 {
+        if self.a == slot { self.b } else { self.a }
+    }
+
     /// Whether the bodies exactly touch, overlap, or press on each other.
     #[inline]
     pub(crate) fn touches(&self) -> bool {

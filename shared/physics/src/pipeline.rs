@@ -4,6 +4,7 @@ pub mod scheduler;
 
 pub(crate) mod bounce;
 pub(crate) mod broadphase;
+pub(crate) mod carry;
 pub(crate) mod ccd;
 pub(crate) mod events;
 pub(crate) mod flat;

@@ -72,6 +72,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             travel: S::Speed::ZERO,
             fastest: S::Speed::ZERO,
             smallest: S::Speed::ZERO,
+            uneven: false,
             deep: false,
             strays: false,
             speed_cap: S::Speed::ZERO,
@@ -127,6 +128,8 @@ pub struct World<'a, S: Scalar> {
     pub(crate) fastest: S::Speed,
     /// Half of the shorter side of the smallest moving body, as a speed.
     pub(crate) smallest: S::Speed,
+    /// Some moving body is far lighter than another one.
+    pub(crate) uneven: bool,
     /// A contact may be so deep that continuous collision detection must care, however slow its bodies are.
     pub(crate) deep: bool,
     /// A body may have left the world in this step.

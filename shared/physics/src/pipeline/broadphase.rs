@@ -10,10 +10,10 @@
 //! inserted; only bodies with equal centres and sizes are told apart by their slots.
 
 use super::grid::{Bounds, Grid};
-use super::integrate;
 use super::order::{self, Ground};
 use super::pairs::{NONE, Update};
 use super::terrain;
+use super::{carry, integrate};
 use crate::body::{Body, Profile};
 use crate::contact::Flags;
 use crate::effects::{Effects, Switches};
@@ -211,7 +211,7 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let sensors = switches.on(Effects::SENSORS);
     let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
     let terrain = world.terrain;
-    let World { bodies, profiles, layers, pool, tiles, smallest, fastest, .. } = world;
+    let World { bodies, profiles, layers, pool, tiles, smallest, fastest, uneven, .. } = world;
     let (bodies, profiles) = (&**bodies, &**profiles);
     if !tell_ends {
         pool.forget_aside();
@@ -226,6 +226,10 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
         *fastest = speeds.fold(S::Speed::ZERO, integrate::larger);
         let sizes = layers.dynamics().iter().map(|&slot| &bodies[usize::from(slot)].half);
         *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
+        let rigid = layers.dynamics().iter().filter(|&&slot| bodies[usize::from(slot)].status.is_rigid());
+        let masses = rigid.map(|&slot| profiles[usize::from(slot)].mass);
+        let heaviest = masses.clone().fold(S::Real::ZERO, Quantity::greater);
+        *uneven = carry::is_far_lighter::<S>(masses.fold(heaviest, Quantity::lesser), heaviest);
     }
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);

@@ -15,6 +15,7 @@ use ::fixed::types::I16F16;
 use crate::body::{Body, Marks};
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
+use crate::pipeline::carry;
 use crate::pipeline::narrowphase::GRAZE;
 use crate::pipeline::order::Ground;
 use crate::pipeline::pairs::NONE;
@@ -25,6 +26,7 @@ use crate::world::World;
 /// Solves all contacts for velocities.
 pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     warm_start(world, switches);
+    carry::velocities(world, switches);
     for _ in 0..world.config.velocity_iterations {
         let mut changed = false;
         for_each_live(world, |contact, a, b| changed |= visit(contact, a, b, switches));

@@ -51,6 +51,7 @@ impl<S: Scalar> World<'_, S> {
             travel,
             fastest,
             smallest,
+            uneven,
             deep,
             strays,
             speed_cap,
@@ -78,7 +79,7 @@ impl<S: Scalar> World<'_, S> {
         self.terrain = *terrain;
         (self.config, self.gravity, self.bounce_threshold, self.speed_cap) =
             (*config, *gravity, *bounce_threshold, *speed_cap);
-        (self.travel, self.fastest, self.smallest) = (*travel, *fastest, *smallest);
+        (self.travel, self.fastest, self.smallest, self.uneven) = (*travel, *fastest, *smallest, *uneven);
         (self.deep, self.strays) = (*deep, *strays);
         (self.used, self.free, self.count) = (*used, *free, *count);
         (self.called_for, self.declared, self.declared_level) = (*called_for, *declared, *declared_level);

@@ -95,6 +95,7 @@ impl<S: Scalar> World<'_, S> {
         self.turn_into(handle.slot, mass != S::ONE && self.bodies[slot].status.is_rigid(), Variety::MASSES)?;
         self.profiles[slot].mass = mass;
         self.redefined(handle.slot);
+        self.changed(false);
         Ok(())
     }
 

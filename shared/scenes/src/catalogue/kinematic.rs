@@ -4,7 +4,7 @@ use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects, Fixed, Vec2};
 
-use super::{COMMON, at, body, dull, floor, settled, short, square, usual, wall};
+use super::{COMMON, at, body, dull, floor, settled, square, usual, wall};
 use crate::parameters::{Mix, Parameters, Takes};
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
@@ -20,7 +20,7 @@ pub(crate) const PUSH: Scene = Scene {
     steps: 300,
     defaults: usual(10),
     bodies: 1..=40,
-    takes: Takes { mixes: &[], ..Takes::ALL },
+    takes: Takes { mixes: &[Mix::Masses], ..Takes::ALL },
     total: |parameters| parameters.bodies + 2,
     body: |parameters, number| match number {
         0 => floor(ratio(3, 10)),
@@ -37,14 +37,11 @@ pub(crate) const PUSH: Scene = Scene {
             Promise::Within { min: at(0, -2 * HALF), max: at(end, 0), tolerance: px(1) },
         ])
     },
-    // At level Exact.
-    shortfalls: &[short("no deep overlap", 2_500)],
     ..COMMON
 };
 
 pub(crate) const LIFT: Scene = Scene {
     name: "lift",
-    shortfalls: &[],
     purpose: "a kinematic platform lifts a stack of ten",
     gravity: 600,
     takes: Takes { gravities: &[200], mixes: &[Mix::Masses], ..Takes::ALL },
@@ -69,7 +66,6 @@ const CRUSHED: u32 = 26;
 
 pub(crate) const CRUSH: Scene = Scene {
     name: "crush",
-    shortfalls: &[],
     purpose: "a kinematic wall crushes three boxes to half their width and lets go: they don't shoot out",
     steps: 300,
     defaults: usual(3),

@@ -4,7 +4,7 @@ use fixed::types::I16F16;
 use flat_physics::scalar::{px, ratio};
 use flat_physics::{BodyDef, Effects};
 
-use super::{COMMON, STANDING, at, body, dull, short, square, usual, wall};
+use super::{COMMON, STANDING, at, body, dull, square, usual, wall};
 use crate::parameters::Takes;
 use crate::promise::Promise;
 use crate::scene::{Promises, Scene};
@@ -43,8 +43,6 @@ pub(crate) const VICE: Scene = Scene {
             Promise::Rest { from: 1, body: None, at_most: px(SPEED) + ratio(1, 100) },
         ])
     },
-    // Nothing pulls, so nothing says who stands on whom: the solver's few passes are all that carries a push through the light one.
-    shortfalls: &[short("no deep overlap", 12_000)],
     ..COMMON
 };
 
