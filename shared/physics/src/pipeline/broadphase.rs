@@ -226,10 +226,7 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
         *fastest = speeds.fold(S::Speed::ZERO, integrate::larger);
         let sizes = layers.dynamics().iter().map(|&slot| &bodies[usize::from(slot)].half);
         *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
-        let rigid = layers.dynamics().iter().filter(|&&slot| bodies[usize::from(slot)].status.is_rigid());
-        let masses = rigid.map(|&slot| profiles[usize::from(slot)].mass);
-        let heaviest = masses.clone().fold(S::Real::ZERO, Quantity::greater);
-        *uneven = carry::is_far_lighter::<S>(masses.fold(heaviest, Quantity::lesser), heaviest);
+        *uneven = carry::is_uneven(layers.dynamics(), bodies, profiles);
     }
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);

@@ -15,8 +15,9 @@ use crate::contact::{Contact, Flags};
 use crate::effects::{Effects, Switches};
 use crate::pipeline::integrate;
 use crate::pipeline::pairs::NONE;
+use crate::pipeline::position::Correction;
 use crate::scalar::{Quantity, Scalar};
-use crate::vec2::Vec2;
+use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
 /// Most bodies of a row.
@@ -28,18 +29,40 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
     let driven = switches.on(Effects::KINEMATIC) && world.called_for.contain(Effects::KINEMATIC);
     if driven || world.uneven {
         let falls = integrate::gravity(world, switches) != Vec2::default();
-        carry(world, falls, driven);
+        carry(world, falls, driven, None);
     }
 }
 
+/// Parts ends of rows between which there is too little room. Rows that a kinematic body pushes take care of themselves.
+#[inline]
+pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, correction: Correction<S>) {
+    if world.uneven {
+        let falls = integrate::gravity(world, switches) != Vec2::default();
+        carry(world, falls, false, Some(correction));
+    }
+}
+
+/// Whether some rigid body is far lighter than another.
+pub(crate) fn is_uneven<S: Scalar>(slots: &[u16], bodies: &[Body<S>], profiles: &[Profile<S>]) -> bool {
+    let mut range = None;
+    for slot in slots.iter().map(|&slot| usize::from(slot)) {
+        if bodies[slot].status.is_rigid() {
+            let mass = profiles[slot].mass;
+            let (lightest, heaviest) = range.unwrap_or((mass, mass));
+            range = Some((lightest.lesser(mass), heaviest.greater(mass)));
+        }
+    }
+    range.is_some_and(|(lightest, heaviest)| is_far_lighter::<S>(lightest, heaviest))
+}
+
 /// Whether a body is so much lighter that a few passes over contacts don't carry a push through it: less than a quarter.
-pub(crate) fn is_far_lighter<S: Scalar>(mass: S::Real, than: S::Real) -> bool {
+fn is_far_lighter<S: Scalar>(mass: S::Real, than: S::Real) -> bool {
     mass < S::half(S::half(than))
 }
 
 #[cold]
 #[inline(never)]
-fn carry<S: Scalar>(world: &mut World<'_, S>, falls: bool, driven: bool) {
+fn carry<S: Scalar>(world: &mut World<'_, S>, falls: bool, driven: bool, correction: Option<Correction<S>>) {
     let ground = world.layers.ground();
     for horizontal in [false, true] {
         if falls && horizontal == ground.is_horizontal() {
@@ -50,7 +73,8 @@ fn carry<S: Scalar>(world: &mut World<'_, S>, falls: bool, driven: bool) {
         for &slot in order {
             (before[usize::from(slot)], after[usize::from(slot)]) = (NONE, NONE);
         }
-        let mut rows = Rows { contacts: pool.all(), bodies, profiles, horizontal, next: [before, after] };
+        let next = [before, after];
+        let mut rows = Rows { contacts: pool.all(), bodies, profiles, horizontal, next, correction };
         if rows.link() {
             rows.carry(driven);
         }
@@ -65,6 +89,8 @@ struct Rows<'r, S: Scalar> {
     horizontal: bool,
     /// By slot, the contact with the next body against the axis, and along it: of several, that with the heaviest.
     next: [&'r mut [u16]; 2],
+    /// How positions are corrected; none = velocities are.
+    correction: Option<Correction<S>>,
 }
 
 impl<S: Scalar> Rows<'_, S> {
@@ -159,8 +185,12 @@ impl<S: Scalar> Rows<'_, S> {
     /// Stops two ends, the other of which lies along the axis or against it; `share` of what that takes changes the one.
     #[inline(never)]
     fn stop(&mut self, one: u16, other: u16, along: bool, gap: S::Speed, share: S::Unit) {
-        let closing = self.speed(one).saturating_sub(self.speed(other));
-        let excess = if along { closing } else { -closing }.saturating_sub(gap.greater(S::Speed::ZERO));
+        let excess = if let Some(correction) = self.correction {
+            correction.of(-gap, -gap)
+        } else {
+            let closing = self.speed(one).saturating_sub(self.speed(other));
+            if along { closing } else { -closing }.saturating_sub(gap.greater(S::Speed::ZERO))
+        };
         if excess > S::Speed::ZERO {
             let excess = if along { excess } else { -excess };
             let part = S::speed_times(excess, share);
@@ -171,10 +201,16 @@ impl<S: Scalar> Rows<'_, S> {
 
     fn change(&mut self, slot: u16, by: S::Speed) {
         let body = &mut self.bodies[usize::from(slot)];
-        let (speed, held) =
-            if self.horizontal { (&mut body.velocity.x, Marks::HELD_X) } else { (&mut body.velocity.y, Marks::HELD_Y) };
-        *speed = speed.saturating_add(by);
-        body.marks.set(held);
+        let zero = S::Speed::ZERO;
+        let (by, held) =
+            if self.horizontal { (vec2(by, zero), Marks::HELD_X) } else { (vec2(zero, by), Marks::HELD_Y) };
+        if self.correction.is_some() {
+            body.position = body.position.saturating_add(by.map(S::in_a_step));
+            body.marks.set(Marks::MOVED);
+        } else {
+            body.velocity = body.velocity.saturating_add(by);
+            body.marks.set(held);
+        }
     }
 
     fn speed(&self, slot: u16) -> S::Speed {

@@ -11,23 +11,46 @@ use crate::body::{Body, Marks, PUSH};
 use crate::config::Level;
 use crate::contact::{Contact, Flags};
 use crate::effects::Switches;
-use crate::pipeline::ccd;
 use crate::pipeline::order::Ground;
+use crate::pipeline::{carry, ccd};
 use crate::scalar::{Quantity, Scalar, px};
 use crate::world::World;
 
 /// Most that one contact parts two movable bodies by in a step, px: many in one place don't throw each other over a wall.
 const MOST: I16F16 = px(1);
 
+/// How much of an overlap is corrected.
+#[derive(Clone, Copy)]
+pub(crate) struct Correction<S: Scalar> {
+    slop: S::Speed,
+    /// What is left of the overlap in the end.
+    aim: S::Speed,
+    /// Part of the rest that a step leaves.
+    rest: S::Real,
+}
+
+impl<S: Scalar> Correction<S> {
+    /// How far to part bodies that overlap by `depth`, and of it by `old` before this pass: a part of what was there, and all that
+    /// the pass has added. So a stack rises as one.
+    #[inline]
+    pub(crate) fn of(self, depth: S::Speed, old: S::Speed) -> S::Speed {
+        if depth <= self.slop {
+            return S::Speed::ZERO;
+        }
+        depth - self.aim - S::speed_scaled((old - self.aim).greater(S::Speed::ZERO), self.rest)
+    }
+}
+
 /// One pass over all contacts.
 pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let slop = S::per_step(world.config.slop);
-    let bias = world.config.bias;
     let ground = world.layers.ground();
     let flat = world.level(switches) == Level::Flat;
     let aim = if flat { slop } else { S::half_speed(slop) };
+    let correction = Correction { slop, aim, rest: S::ONE - world.config.bias };
+    let most = S::per_step(S::real(MOST));
+    let mut parted = false;
     world.deep = false;
-    let (rest, most) = (S::ONE - bias, S::per_step(S::real(MOST)));
     let mut pushed_anybody = false;
     for contact in world.pool.all() {
         if contact.flags.has(Flags::FAR) {
@@ -39,20 +62,22 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             continue;
         }
         world.deep |= contact.gap < ccd::deep::<S>();
-        // A part of the overlap that was there, and all that this pass has added: a stack rises as one.
-        let old = if flat { depth } else { depth.lesser(-contact.gap) };
-        let correction = depth - aim - S::speed_scaled((old - aim).greater(S::Speed::ZERO), rest);
+        let by = correction.of(depth, if flat { depth } else { depth.lesser(-contact.gap) });
         let a = &world.bodies[usize::from(contact.a)];
         let b = &world.bodies[usize::from(contact.b)];
         let bears = contact.flags.has(Flags::BEARS) && !flat;
         if bears && a.marks.has(Marks::GROUNDED) && (!b.status.is_rigid() || b.marks.has(Marks::GROUNDED)) {
-            lift(contact, correction, world.bodies, ground);
+            lift(contact, by, world.bodies, ground);
         } else {
             let whole = flat || contact.flags.has(Flags::IMMOVABLE);
-            part(contact, if whole { correction } else { correction.lesser(most) }, world.bodies, ground);
+            part(contact, if whole { by } else { by.lesser(most) }, world.bodies, ground);
+            parted = true;
         }
         pushed_anybody = true;
         world.strays |= [contact.a, contact.b].iter().any(|&slot| world.bodies[usize::from(slot)].is_beyond_limit());
+    }
+    if parted && !flat {
+        carry::positions(world, switches, correction);
     }
 }
 
