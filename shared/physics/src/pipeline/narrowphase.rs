@@ -280,7 +280,8 @@ fn rounded<S: Scalar>(
     let mut gap = gap;
     if gap > S::real(GRAZE) {
         let Approach { closing, reach } = approach();
-        if gap > reach {
+        // Along a diagonal, motion leads farther than along either axis: by less than a half of the longer.
+        if gap > reach && gap > reach + S::half(reach - S::real(MARGIN)) {
             return None;
         }
         gap = leeway::<S>(offset, touch, closing, normal, gap);
@@ -424,5 +425,10 @@ fn circle_box<S: Scalar>(
     let Some((normal, distance)) = direction::<S>(closest) else {
         return Some(Manifold::along(Axis::Down, -radius));
     };
+    // Who passes the corner may meet a face beyond it.
+    let end = offset - closing;
+    let end = vec2(end.x - end.x.held(half.x), end.y - end.y.held(half.y));
+    let passes = !S::within(end, radius - S::real(GRAZE));
+    let closing = if passes { closing } else { Vec2::default() };
     rounded(closest, radius, normal, distance - radius, || Approach { closing, reach })
 }
