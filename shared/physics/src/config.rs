@@ -26,7 +26,8 @@ pub struct Config<S: Scalar> {
     /// Passes over the contacts in a step, 1..=16. Default 3, at level Flat 2, at level Exact 4; more make heaps firmer and
     /// cost time while they move.
     pub velocity_iterations: u8,
-    /// Part of the penetration beyond the slop that a step removes, 0..=1. Default 0.2; more makes stacks nervous.
+    /// Part of the penetration beyond the slop that a step removes, 0..=1. Default 0.4, at level Flat 0.2; more makes stacks
+    /// nervous.
     pub bias: S::Real,
     /// Penetration that is left alone, px, 0..=8. Default 0.02; less makes resting bodies tremble.
     pub slop: S::Real,
