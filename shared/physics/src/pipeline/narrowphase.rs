@@ -39,7 +39,8 @@ impl<S: Scalar> Manifold<S> {
 pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let ground = world.layers.ground();
     let World { pool, bodies, terrain, deep, fastest, .. } = world;
-    let farthest = S::real(MARGIN) + S::in_a_step(fastest.saturating_add(*fastest));
+    // Two come together by twice that along either axis, and along a diagonal by less than a half more.
+    let farthest = S::real(MARGIN) + S::in_a_step(fastest.saturating_add(*fastest).saturating_add(*fastest));
     let (mut with_terrain, mut at_corner, mut deepest) = (false, false, S::Speed::ZERO);
     for contact in pool.all_mut() {
         let (a, b) = (&bodies[usize::from(contact.a)], &bodies[usize::from(contact.b)]);
@@ -280,8 +281,10 @@ fn rounded<S: Scalar>(
     let mut gap = gap;
     if gap > S::real(GRAZE) {
         let Approach { closing, reach } = approach();
+        let limit = touch + reach;
         // Along a diagonal, motion leads farther than along either axis: by less than a half of the longer.
-        if gap > reach && gap > reach + S::half(reach - S::real(MARGIN)) {
+        let diagonal = reach + S::half(reach - S::real(MARGIN));
+        if gap > diagonal || !offset.x.is_within(limit) || !offset.y.is_within(limit) {
             return None;
         }
         gap = leeway::<S>(offset, touch, closing, normal, gap);
