@@ -51,7 +51,7 @@ const UNNAMED: &str = "unnamed constants";
 const POINTERS: &str = "pointers";
 
 /// Names begin as they do in reports: demangled, with angle brackets.
-const PERMITS: [Permit; 24] = [
+const PERMITS: [Permit; 25] = [
     // Interrupts.
     Permit { from: "_continue_interrupt_trap", to: POINTERS, why: VECTORS },
     Permit { from: "handle_interrupts", to: POINTERS, why: VECTORS },
@@ -82,7 +82,8 @@ const PERMITS: [Permit; 24] = [
     Permit { from: TICK, to: "<flat_physics::world::World", why: TABLES },
     Permit { from: "flat_session::sink::encode", to: POINTERS, why: TABLES },
     Permit { from: "<flat_physics::step::Stage>::run", to: POINTERS, why: TABLES },
-    Permit { from: "<flat_physics::geometry::Sum<", to: UNNAMED, why: TABLES },
+    Permit { from: "<flat_physics::tiles::map::TileMap>::contacts_a", to: POINTERS, why: TABLES },
+    Permit { from: "flat_physics::tiles::around::visit_corner", to: POINTERS, why: TABLES },
     Permit {
         from: "<&flat_firmware::tasks::outbox::Outbox as flat_session::sink::Sink>::push",
         to: POINTERS,

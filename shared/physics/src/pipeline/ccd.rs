@@ -150,15 +150,15 @@ fn mark<S: Scalar>(slot: u16, threshold: S::Real, world: &mut World<'_, S>, swit
     let before = world.before[usize::from(slot)];
     let body = &mut world.bodies[usize::from(slot)];
     let least = S::per_step(least(body));
-    let longest = |v: Vec2<S::Speed>| v.x.abs().greater(v.y.abs());
-    if longest(motion.saturating_sub(before)) > least {
+    let is_within = |v: Vec2<S::Speed>, limit| v.x.is_within(limit) && v.y.is_within(limit);
+    if !is_within(motion.saturating_sub(before), least) {
         body.marks.set(Marks::JOLTED);
     }
-    if !body.status.collides() || longest(motion) <= S::speed_scaled(least, threshold) {
+    if !body.status.collides() || is_within(motion, S::speed_scaled(least, threshold)) {
         return Pace::Slow;
     }
     body.marks.set(Marks::FAST);
-    if longest(motion) > least { Pace::Swift } else { Pace::Fast }
+    if is_within(motion, least) { Pace::Fast } else { Pace::Swift }
 }
 
 /// Half of a body's shorter side: what moves by less leaves its centre on the near side of whatever it meets.

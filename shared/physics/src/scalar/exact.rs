@@ -32,6 +32,7 @@ fn wide(length: I16F16) -> i64 {
 }
 
 /// The root rounded down, digit by digit: a tenth of the code of [`u64::isqrt`], which is made for speed.
+#[inline]
 fn square_root(number: u64) -> u64 {
     let (mut rest, mut root) = (number, 0);
     for digit in (0..64).step_by(2).rev() {
@@ -46,7 +47,7 @@ fn square_root(number: u64) -> u64 {
 }
 
 /// Bits without leading zeros.
-#[inline(never)]
+#[inline]
 fn bits(number: u64) -> u32 {
     u64::BITS - number.leading_zeros()
 }

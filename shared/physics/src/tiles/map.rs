@@ -174,9 +174,17 @@ impl<'a> TileMap<'a> {
     /// The active tiles that overlap or touch a box, row by row.
     pub fn tiles_in<S: Scalar>(&self, bounds: &Bounds<S>) -> impl Iterator<Item = Tile> {
         let columns = self.columns.span::<S>(bounds.min.x, bounds.max.x);
-        let rows = self.rows.span::<S>(bounds.min.y, bounds.max.y);
-        rows.flat_map(move |row| columns.clone().zip(iter::repeat(row)))
-            .filter_map(|(column, row)| self.tile(column, row))
+        let mut rows = self.rows.span::<S>(bounds.min.y, bounds.max.y);
+        let mut rest = columns.clone();
+        iter::from_fn(move || {
+            while !rows.is_empty() {
+                if let Some(tile) = rest.find_map(|column| self.tile(column, rows.start)) {
+                    return Some(tile);
+                }
+                (rows.start, rest) = (rows.start + 1, columns.clone());
+            }
+            None
+        })
     }
 
     /// Whether a tile has that face: a solid tile where the tile beside it isn't solid, a one-way tile only its top.
