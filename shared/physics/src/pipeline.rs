@@ -17,4 +17,5 @@ pub(crate) mod order;
 pub(crate) mod pairs;
 pub(crate) mod position;
 pub(crate) mod sleep;
+pub(crate) mod sweep;
 pub(crate) mod terrain;
