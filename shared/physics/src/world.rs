@@ -105,6 +105,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
 
 /// Bodies, contacts and settings of one world.
 #[derive(Debug)]
+#[allow(clippy::struct_excessive_bools)] // each is what one stage tells another
 pub struct World<'a, S: Scalar> {
     pub(crate) config: Config<S>,
     /// Velocity that gravity adds in a step.
