@@ -18,6 +18,7 @@ use crate::contact::Flags;
 use crate::effects::{Effects, Switches};
 use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::tiles::TileMap;
+use crate::variety::Variety;
 use crate::world::World;
 
 /// How far bodies move before pairs are looked for again, px.
@@ -168,12 +169,16 @@ impl<'a> Layers<'a> {
 /// Brings the pairs up to date, if bodies may have met since that was last done.
 pub(crate) fn update<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     turn(world, Ground::of(integrate::gravity(world, switches)));
-    let skin = S::per_step(S::real(px(SKIN)));
-    if !world.layers.dirty && world.travel.saturating_add(world.fastest) < skin {
+    if !world.layers.dirty && world.travel.saturating_add(world.fastest) < skin::<S>() {
         return;
     }
     world.travel = S::Speed::ZERO;
     find_pairs(world, switches);
+}
+
+/// A skin, as the speed that covers it in a step.
+fn skin<S: Scalar>() -> S::Speed {
+    S::per_step(S::real(px(SKIN)))
 }
 
 /// Sorts bodies towards another ground, if gravity pulls elsewhere: what bears whom is then another matter.
@@ -221,20 +226,22 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
         *fastest = speeds.fold(S::Speed::ZERO, integrate::larger);
         let sizes = layers.dynamics().iter().map(|&slot| &bodies[usize::from(slot)].half);
         *smallest = S::per_step(sizes.fold(S::real(px(i16::MAX)), |least, half| least.lesser(half.x).lesser(half.y)));
-        *uneven = carry::is_uneven(layers.dynamics(), bodies, profiles);
+        *uneven = switches.variety().contain(Variety::MASSES) && carry::is_uneven(layers.dynamics(), bodies, profiles);
     }
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);
     let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
     let pairs = Pairs { bodies, profiles, ground, sensors, wanted, changed };
     let closing = S::in_a_step(fastest.saturating_add(*fastest));
+    // Until pairs are next looked for, either body may move by a skin. Where somebody is fast, that is in the next step.
+    let margin = S::real(px(if *fastest < skin::<S>() { 2 * SKIN } else { SKIN }));
     let mut sweep = Sweep::new(links, dynamics, bodies, ground);
     for (rank, &slot) in dynamics.iter().enumerate() {
         let body = &bodies[usize::from(slot)];
         if !body.status.collides() {
             continue;
         }
-        let near = Near::new(body, closing);
+        let near = Near::new(body, margin, closing);
         sweep.visit(rank, dynamics, &near, &pairs, &mut update);
         if !grid.is_empty() && (body.status.is_rigid() || sensors) {
             // Whoever sleeps is found by rigid bodies; others have woken it if they move.
@@ -246,7 +253,7 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
             });
         }
         if switches.on(Effects::TILES) && terrain != NONE && (body.status.is_rigid() || sensors) {
-            look_for_tiles(slot, terrain, body, &mut update, tiles, profiles);
+            look_for_tiles(slot, terrain, body, margin, &mut update, tiles, profiles);
         }
     }
     update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
@@ -306,6 +313,7 @@ fn look_for_tiles<S: Scalar>(
     slot: u16,
     map: u16,
     body: &Body<S>,
+    margin: S::Real,
     update: &mut Update<'_, '_, S>,
     tiles: &TileMap<'_>,
     profiles: &[Profile<S>],
@@ -313,7 +321,7 @@ fn look_for_tiles<S: Scalar>(
     // Most are near nothing: that is asked first.
     let meets = || profiles[usize::from(slot)].meets(&profiles[usize::from(map)]);
     let speed = body.velocity.map(S::in_a_step);
-    let reach = S::real(px(2 * SKIN)) + speed.x.abs().greater(speed.y.abs());
+    let reach = margin + speed.x.abs().greater(speed.y.abs());
     if body.status.is_rigid() && !body.status.is_sensor() {
         let room = terrain::room(tiles, body, reach);
         if room > 0 && meets() {

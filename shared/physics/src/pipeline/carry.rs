@@ -17,6 +17,7 @@ use crate::pipeline::integrate;
 use crate::pipeline::pairs::NONE;
 use crate::pipeline::position::Correction;
 use crate::scalar::{Quantity, Scalar};
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
@@ -27,7 +28,8 @@ const LONGEST: usize = 64;
 #[inline]
 pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let driven = switches.on(Effects::KINEMATIC) && world.called_for.contain(Effects::KINEMATIC);
-    if driven || world.uneven {
+    let uneven = switches.variety().contain(Variety::MASSES) && world.uneven;
+    if driven || uneven {
         let falls = integrate::gravity(world, switches) != Vec2::default();
         carry(world, falls, driven, None);
     }
@@ -36,7 +38,7 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
 /// Parts ends of rows between which there is too little room. Rows that a kinematic body pushes take care of themselves.
 #[inline]
 pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, correction: Correction<S>) {
-    if world.uneven {
+    if switches.variety().contain(Variety::MASSES) && world.uneven {
         let falls = integrate::gravity(world, switches) != Vec2::default();
         carry(world, falls, false, Some(correction));
     }

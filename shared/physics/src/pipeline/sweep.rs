@@ -15,10 +15,10 @@ const COLUMNS: usize = 64;
 /// Bodies that the width of the columns is taken from, at most.
 const SAMPLE: usize = 64;
 
-/// The neighbourhood of a body: whom it may touch before both have moved by a skin, or in this step at their speeds.
+/// The neighbourhood of a body: whom it may touch before both have moved by half of the margin, or in this step at their speeds.
 pub(crate) struct Near<S: Scalar> {
     centre: Vec2<S::Real>,
-    /// Half extents and two skins.
+    /// Half extents and the margin.
     reach: Vec2<S::Real>,
     velocity: Vec2<S::Speed>,
     /// How far any two bodies come together in a step, at most.
@@ -27,8 +27,7 @@ pub(crate) struct Near<S: Scalar> {
 
 impl<S: Scalar> Near<S> {
     #[inline]
-    pub(crate) fn new(body: &Body<S>, closing: S::Real) -> Self {
-        let margin = S::real(px(2 * SKIN));
+    pub(crate) fn new(body: &Body<S>, margin: S::Real, closing: S::Real) -> Self {
         Self { centre: body.position, reach: body.half.map(|half| half + margin), velocity: body.velocity, closing }
     }
 
