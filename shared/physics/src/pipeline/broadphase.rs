@@ -231,7 +231,7 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);
     let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
-    let pairs = Pairs { bodies, profiles, ground, sensors, wanted, changed };
+    let pairs = Pairs { bodies, profiles, ground, switches, wanted, changed };
     let closing = S::in_a_step(fastest.saturating_add(*fastest));
     // Until pairs are next looked for, either body may move by a skin. Where somebody is fast, that is in the next step.
     let margin = S::real(px(if *fastest < skin::<S>() { 2 * SKIN } else { SKIN }));
@@ -260,17 +260,17 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
 }
 
 /// What a search needs to know to tell which pairs of bodies count.
-pub(crate) struct Pairs<'w, S: Scalar> {
+pub(crate) struct Pairs<'w, S: Scalar, W: Switches> {
     pub(crate) bodies: &'w [Body<S>],
     profiles: &'w [Profile<S>],
     ground: Ground,
-    sensors: bool,
+    switches: W,
     wanted: Wanted,
     /// Bodies came, went or changed since the last search: a pair of then may not be one now.
     changed: bool,
 }
 
-impl<S: Scalar> Pairs<'_, S> {
+impl<S: Scalar, W: Switches> Pairs<'_, S, W> {
     /// Whether a pair of this upper body's that has a contact is still one.
     #[inline]
     pub(crate) fn are_known_of(&self, upper: &Body<S>) -> bool {
@@ -282,7 +282,7 @@ impl<S: Scalar> Pairs<'_, S> {
     #[inline(never)]
     pub(crate) fn note(&self, upper: u16, lower: u16, update: &mut Update<'_, '_, S>) {
         let [first, second] = [upper, lower].map(|slot| self.bodies[usize::from(slot)].status);
-        if !(first.is_rigid() || second.is_rigid() || self.sensors) {
+        if !(first.is_rigid() || second.is_rigid() || self.switches.on(Effects::SENSORS)) {
             return;
         }
         // What can be pushed comes first; what is immovable pushes. Of two that are, one is a sensor.
@@ -294,7 +294,7 @@ impl<S: Scalar> Pairs<'_, S> {
             return;
         }
         if !update.keep_pair(update.group(a), a, b) && (self.changed || self.meet(a, b)) {
-            update.add_pair(a, b, self.bodies, self.profiles);
+            update.add_pair(a, b, self.bodies, self.profiles, self.switches);
         }
     }
 

@@ -11,6 +11,7 @@ use crate::effects::{Effects, Switches};
 use crate::pipeline::order::Ground;
 use crate::pipeline::{ccd, one_way, terrain};
 use crate::scalar::{Quantity, Scalar, ratio};
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
@@ -41,6 +42,7 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
     let World { pool, bodies, terrain, deep, fastest, .. } = world;
     // Two come together by twice that along either axis, and along a diagonal by less than a half more.
     let farthest = S::real(MARGIN) + S::in_a_step(fastest.saturating_add(*fastest).saturating_add(*fastest));
+    let round = switches.variety().contain(Variety::CIRCLES);
     let (mut with_terrain, mut at_corner, mut deepest) = (false, false, S::Speed::ZERO);
     for contact in pool.all_mut() {
         let (a, b) = (&bodies[usize::from(contact.a)], &bodies[usize::from(contact.b)]);
@@ -52,8 +54,8 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             continue;
         }
         let may_pass = switches.on(Effects::ONE_WAY) && b.status.is_one_way();
-        if may_pass || !circles(contact, a, b, farthest, ground) {
-            at_corner |= look(contact, a, b, may_pass, ground);
+        if !round || may_pass || !circles(contact, a, b, farthest, ground) {
+            at_corner |= look(contact, a, b, may_pass, ground, round);
         }
         deepest = deepest.lesser(contact.gap);
         // No pass after this one looks at what is far: so sensors notice and never block, and cost no pass anything.
@@ -62,7 +64,7 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
         }
     }
     *deep |= deepest < ccd::deep::<S>();
-    if at_corner {
+    if round && at_corner {
         close_seams(world);
     }
     if with_terrain {
@@ -96,8 +98,15 @@ fn circles<S: Scalar>(contact: &mut Contact<S>, a: &Body<S>, b: &Body<S>, farthe
 
 /// Looks again at any contact; whether it is one with the corner of a static box.
 #[inline(never)]
-fn look<S: Scalar>(contact: &mut Contact<S>, a: &Body<S>, b: &Body<S>, may_pass: bool, ground: Ground) -> bool {
-    let mut manifold = near(a, b, || scattered::<S>(contact.b) - scattered::<S>(contact.a));
+fn look<S: Scalar>(
+    contact: &mut Contact<S>,
+    a: &Body<S>,
+    b: &Body<S>,
+    may_pass: bool,
+    ground: Ground,
+    round: bool,
+) -> bool {
+    let mut manifold = near(a, b, round, || scattered::<S>(contact.b) - scattered::<S>(contact.a));
     if may_pass {
         manifold = one_way::hold(&mut contact.flags, manifold, a, b, ground);
     }
@@ -208,16 +217,18 @@ impl<S: Scalar> Approach<S> {
     }
 }
 
-/// How two bodies lie; none if they can't touch in this step.
+/// How two bodies lie, which are boxes unless there may be `round` ones; none if they can't touch in this step.
+#[inline(always)] // so that what isn't called for isn't there
 pub(crate) fn near<S: Scalar>(
     a: &Body<S>,
     b: &Body<S>,
+    round: bool,
     scattered: impl FnOnce() -> Vec2<S::Real>,
 ) -> Option<Manifold<S>> {
     let (offset, touch) = (b.position - a.position, a.half + b.half);
     let Approach { closing, reach } = Approach::of(a, b);
-    match (a.status.is_circle(), b.status.is_circle()) {
-        _ if offset == Vec2::default() => Some(coincident(a, b, scattered())),
+    match (round && a.status.is_circle(), round && b.status.is_circle()) {
+        both if offset == Vec2::default() => Some(coincident(touch, both == (true, true), scattered())),
         (false, false) => boxes::<S>(offset, touch, closing, reach),
         (true, true) => circle_box::<S>(offset, touch.x, Vec2::default(), closing, reach),
         (true, false) => circle_box::<S>(offset, a.half.x, b.half, closing, reach),
@@ -227,12 +238,8 @@ pub(crate) fn near<S: Scalar>(
 
 /// Bodies with one centre: `scattered` says which way from the first to the second, where nothing else does.
 #[cold]
-fn coincident<S: Scalar>(a: &Body<S>, b: &Body<S>, scattered: Vec2<S::Real>) -> Manifold<S> {
-    let touch = a.half + b.half;
-    if a.status.is_circle()
-        && b.status.is_circle()
-        && let Some((normal, _)) = direction::<S>(scattered)
-    {
+fn coincident<S: Scalar>(touch: Vec2<S::Real>, circles: bool, scattered: Vec2<S::Real>) -> Manifold<S> {
+    if circles && let Some((normal, _)) = direction::<S>(scattered) {
         return Manifold { normal, axis: along::<S>(normal), gap: -touch.x };
     }
     let upright = if touch.x == touch.y { scattered.y.abs() >= scattered.x.abs() } else { touch.y < touch.x };

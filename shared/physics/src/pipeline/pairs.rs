@@ -5,7 +5,9 @@ use super::order::{self, Ground};
 use super::terrain;
 use crate::body::{Body, Profile};
 use crate::contact::{Contact, Flags, Pool};
+use crate::effects::Switches;
 use crate::scalar::{Quantity, Scalar};
+use crate::variety::Variety;
 
 /// Marks a body without a group, and the end of a list.
 pub(crate) const NONE: u16 = u16::MAX;
@@ -60,7 +62,14 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
 
     /// Adds a contact between two bodies that there was none between in this order.
     #[cold]
-    pub(crate) fn add_pair(&mut self, a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>]) {
+    pub(crate) fn add_pair(
+        &mut self,
+        a: u16,
+        b: u16,
+        bodies: &[Body<S>],
+        profiles: &[Profile<S>],
+        switches: impl Switches,
+    ) {
         self.regroup = true;
         if !bodies[usize::from(b)].status.is_static()
             && let Some(contact) = self.find(self.group(b), b, a)
@@ -71,7 +80,9 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
             contact.flags.set(Flags::KEPT.or(Flags::NEW));
             self.kept += 1;
         } else {
-            self.pool.push(found(a, b, bodies, profiles));
+            let mut contact = Contact { a, b, flags: Flags::KEPT, ..Contact::EMPTY };
+            define(&mut contact, bodies, profiles, switches);
+            self.pool.push(contact);
         }
     }
 
@@ -152,15 +163,13 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
     }
 }
 
-/// A pair seen for the first time.
-fn found<S: Scalar>(a: u16, b: u16, bodies: &[Body<S>], profiles: &[Profile<S>]) -> Contact<S> {
-    let mut contact = Contact { a, b, flags: Flags::KEPT, ..Contact::EMPTY };
-    define(&mut contact, bodies, profiles);
-    contact
-}
-
 /// Takes over into a contact what its bodies' definitions say.
-pub(crate) fn define<S: Scalar>(contact: &mut Contact<S>, bodies: &[Body<S>], profiles: &[Profile<S>]) {
+pub(crate) fn define<S: Scalar>(
+    contact: &mut Contact<S>,
+    bodies: &[Body<S>],
+    profiles: &[Profile<S>],
+    switches: impl Switches,
+) {
     let (a, b) = (usize::from(contact.a), usize::from(contact.b));
     let (own, other) = (&profiles[a], &profiles[b]);
     let flags = &mut contact.flags;
@@ -169,10 +178,12 @@ pub(crate) fn define<S: Scalar>(contact: &mut Contact<S>, bodies: &[Body<S>], pr
     flags.clear(Flags::IMMOVABLE.or(Flags::EVEN).or(Flags::BOUNCY).or(Flags::SENSOR));
     flags.set(Flags::NEW);
     if bodies[b].status.is_rigid() {
-        if own.mass == other.mass {
+        if !switches.variety().contain(Variety::MASSES) || own.mass == other.mass {
             flags.set(Flags::EVEN);
+            contact.share = S::unit_ratio(1, 2);
+        } else {
+            contact.share = S::mass_share(own.mass, other.mass);
         }
-        contact.share = S::mass_share(own.mass, other.mass);
     } else {
         flags.set(Flags::IMMOVABLE);
     }

@@ -8,6 +8,7 @@ use super::grid::Bounds;
 use super::order::Ground;
 use super::pairs::{NONE, Update};
 use crate::body::Body;
+use crate::effects::Switches;
 use crate::scalar::{Quantity, Scalar, px};
 use crate::vec2::Vec2;
 
@@ -112,7 +113,7 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
         rank: usize,
         order: &[u16],
         near: &Near<S>,
-        pairs: &Pairs<'_, S>,
+        pairs: &Pairs<'_, S, impl Switches>,
         update: &mut Update<'_, '_, S>,
     ) {
         let slot = order[rank];
@@ -161,7 +162,7 @@ impl<'a, R: Quantity, T: Quantity> Sweep<'a, R, T> {
         rank: usize,
         order: &[u16],
         near: &Near<S>,
-        pairs: &Pairs<'_, S>,
+        pairs: &Pairs<'_, S, impl Switches>,
         update: &mut Update<'_, '_, S>,
     ) {
         let slot = order[rank];

@@ -281,7 +281,7 @@ fn sense<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, contact: &mut Contact<S
     if flags.is_sensor() {
         let cell = Outline::from(tiles.bounds::<S>(Tile { column, row, flags }));
         let area = Body { position: cell.centre, half: cell.half, status: Status::default(), ..Body::EMPTY };
-        if let Some(manifold) = narrowphase::near(body, &area, Vec2::default) {
+        if let Some(manifold) = narrowphase::near(body, &area, true, Vec2::default) {
             narrowphase::write(contact, &manifold, ground);
             contact.flags.set(Flags::FAR);
             return;

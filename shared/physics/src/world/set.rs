@@ -253,7 +253,7 @@ impl<S: Scalar> World<'_, S> {
         let Self { pool, bodies, profiles, .. } = self;
         for contact in pool.waking_and_asleep_mut() {
             if contact.is_of(slot) {
-                pairs::define(contact, bodies, profiles);
+                pairs::define(contact, bodies, profiles, Effects::ALL);
             }
         }
         self.disturb(slot);
