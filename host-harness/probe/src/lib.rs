@@ -4,6 +4,8 @@
 #![no_std]
 #![deny(missing_docs, clippy::undocumented_unsafe_blocks)]
 
+pub mod game;
+
 use core::arch::asm;
 
 /// A mark: what is executed up to the next one is counted apart. Its argument says what comes next.

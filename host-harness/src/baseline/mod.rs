@@ -124,8 +124,13 @@ fn measure(timeout: std::time::Duration) -> Result<Record, Error> {
     for (board, path) in [(Board::QemuVirt, elf.clone()), (Board::Esp32c3, image::build(Board::Esp32c3)?)] {
         record.figures.insert(format!("text/{board}"), Image::read(&path)?.sizes.text);
     }
-    for (game, effects) in [("gravity", Effects::GRAVITY), ("everything", Effects::ALL)] {
-        let sizes = Image::read(&probe::build(Program::Game, Some(effects))?)?.sizes;
+    let games = [
+        ("boxes", Program::Boxes, Effects::GRAVITY),
+        ("gravity", Program::Game, Effects::GRAVITY),
+        ("everything", Program::Game, Effects::ALL),
+    ];
+    for (game, program, effects) in games {
+        let sizes = Image::read(&probe::build(program, Some(effects))?)?.sizes;
         record.figures.insert(format!("text/game/{game}"), sizes.text + sizes.rodata);
     }
     let means = Means { elf: Some(elf), speed: Speed::Quiet, patience: timeout, reset: Reset::default() };

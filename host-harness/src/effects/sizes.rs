@@ -13,6 +13,9 @@ use crate::measure::probe::{self, Program};
 /// The engine's functions, by the beginning of their names.
 const ENGINE: &str = "flat_physics::";
 
+/// Functions that read a body's flags.
+const FLAGS: &str = "<flat_physics::body::Status>::is_";
+
 /// Builds that [`measure`] makes.
 pub fn builds(effects: &[Effects]) -> usize {
     2 + 2 * effects.len()
@@ -23,18 +26,21 @@ pub fn builds(effects: &[Effects]) -> usize {
 /// # Errors
 /// If something doesn't build.
 pub fn measure(effects: &[Effects], bar: &ProgressBar) -> Result<Sizes, Error> {
-    let (small, small_functions) = build(Effects::GRAVITY, bar)?;
-    let (all, all_functions) = build(Effects::ALL, bar)?;
+    let (small, small_functions) = build(Program::Boxes, Effects::GRAVITY, bar)?;
+    let (all, all_functions) = build(Program::Game, Effects::ALL, bar)?;
     let mut sizes = Sizes { small, all, effects: Vec::new() };
     for &effect in effects {
         // Gravity is in the smallest game: what it adds is seen from a game without.
         let (with, without) = (Effects::GRAVITY.and(effect), Effects::GRAVITY.without(effect));
-        let added = if with == Effects::GRAVITY { build(without, bar)?.0 } else { build(with, bar)?.0 };
+        let added = if with == Effects::GRAVITY { without } else { with };
+        let added = build(Program::Boxes, added, bar)?.0;
         let to_small = if with == Effects::GRAVITY { small.above(added) } else { added.above(small) };
-        let (rest, rest_functions) = build(Effects::ALL.without(effect), bar)?;
+        let (rest, rest_functions) = build(Program::Game, Effects::ALL.without(effect), bar)?;
         let functions: Vec<String> = all_functions.difference(&rest_functions).cloned().collect();
         let lingering = functions.iter().filter(|_| with != Effects::GRAVITY);
-        let lingering = lingering.filter(|function| small_functions.contains(*function)).cloned().collect();
+        let lingering = lingering.filter(|function| small_functions.contains(*function));
+        // What reads a flag is inlined wherever somebody asks.
+        let lingering = lingering.filter(|function| !function.starts_with(FLAGS)).cloned().collect();
         let to_rest = all.above(rest);
         sizes.effects.push(EffectSize { effect: effect.to_string(), to_small, to_rest, functions, lingering });
     }
@@ -42,9 +48,9 @@ pub fn measure(effects: &[Effects], bar: &ProgressBar) -> Result<Sizes, Error> {
 }
 
 /// One game: its bytes and the engine's functions in it, inlined ones included.
-fn build(effects: Effects, bar: &ProgressBar) -> Result<(Build, BTreeSet<String>), Error> {
-    bar.set_message(format!("a game with {effects}"));
-    let image = Image::read(&probe::build(Program::Game, Some(effects))?)?;
+fn build(program: Program, effects: Effects, bar: &ProgressBar) -> Result<(Build, BTreeSet<String>), Error> {
+    bar.set_message(format!("a {} with {effects}", program.bin()));
+    let image = Image::read(&probe::build(program, Some(effects))?)?;
     let places = image.places(|name| name.starts_with(ENGINE))?;
     let functions = places.into_iter().map(|place| without_set(&place.function)).collect();
     bar.inc(1);

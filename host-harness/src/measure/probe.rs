@@ -34,13 +34,17 @@ pub enum Program {
     Scene,
     /// A box on a floor.
     Game,
+    /// The same, without what other bodies than boxes of equal mass need.
+    Boxes,
 }
 
 impl Program {
-    fn bin(self) -> &'static str {
+    /// Its name.
+    pub fn bin(self) -> &'static str {
         match self {
             Self::Scene => "scene",
             Self::Game => "game",
+            Self::Boxes => "boxes",
         }
     }
 }

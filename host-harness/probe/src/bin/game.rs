@@ -1,44 +1,13 @@
-//! The smallest game: a box on a floor. What it takes is what the engine takes, with the effects that it is built for, at level
-//! Grounded.
+//! The smallest game, built for all kinds of bodies.
 #![no_std]
 #![no_main]
 #![deny(clippy::undocumented_unsafe_blocks)]
 
-use core::hint::black_box;
-
-use flat_physics::scalar::px;
-use flat_physics::{BodyDef, Error, Fixed, Level, Only, Shape, Storage, step, vec2};
-use flat_probe::{EFFECTS, FAIL, MARK, call, end};
-
-/// `FLAT_PROBE_EFFECTS`; a game without any otherwise.
-const CHOSEN: u16 = match EFFECTS {
-    Some(bits) => bits,
-    None => 0,
-};
-
-static mut STORAGE: Storage<Fixed, 16, 32> = Storage::new();
+use flat_physics::Variety;
 
 /// The entry.
 // SAFETY: the only symbol of that name; the linker script enters here.
 #[unsafe(no_mangle)]
 extern "C" fn probe() -> ! {
-    match play() {
-        Ok(()) => end(MARK, [0; 2]),
-        Err(_) => end(FAIL, [0; 2]),
-    }
-}
-
-fn play() -> Result<(), Error<Fixed>> {
-    // SAFETY: the only reference to this static, made once: there is one core, and the entry is entered once.
-    let storage = unsafe { (&raw mut STORAGE).as_mut_unchecked() };
-    let mut world = storage.world();
-    // A game's figures come from its data: the compiler must not know them.
-    let half = |x, y| Shape::Box { half: vec2(black_box(px(x)), black_box(px(y))) };
-    world.spawn(&BodyDef::fixed(half(100, 8), vec2(px(0), px(108))))?;
-    let body = world.spawn(&BodyDef::rigid(half(8, 8), vec2(px(0), px(0))))?;
-    loop {
-        step(&mut world, Only::<CHOSEN, { Level::Grounded as u8 }>);
-        let at = world.body(body)?.position;
-        call(MARK, [at.x.to_bits().cast_unsigned(), at.y.to_bits().cast_unsigned()]);
-    }
+    flat_probe::game::run::<{ Variety::ALL.bits() }>()
 }
