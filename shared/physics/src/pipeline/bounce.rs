@@ -16,14 +16,15 @@ use crate::world::World;
 /// Passes over the contacts: back and forth, so that an impact runs through a row in either direction, and its echo back.
 const PASSES: usize = 4;
 
-/// Lets contacts bounce.
-pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed>, switches: impl Switches) {
+/// Lets contacts bounce; whether any did.
+pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed>, switches: impl Switches) -> bool {
     let threshold = threshold(world, gravity);
     // No two bodies approach each other faster than this.
     let closing = world.fastest.saturating_add(world.fastest).saturating_add(world.fastest);
     if closing < threshold {
-        return;
+        return false;
     }
+    let mut any = false;
     for pass in 0..PASSES {
         let World { pool, bodies, profiles, .. } = world;
         let mut bounced = false;
@@ -48,7 +49,9 @@ pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed
         if !bounced {
             break;
         }
+        any = true;
     }
+    any
 }
 
 /// Approach speed below which nothing bounces: never less than what gravity adds in two steps, or a body at rest would bounce for

@@ -41,11 +41,8 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
 /// seconds.
 const ADRIFT: I16F16 = ratio(1, 1024);
 
-/// What solving leaves of a velocity in a heap at rest, at most: 2^-14 px a step (0.004 px/s).
-#[inline]
-fn residue<S: Scalar>() -> S::Speed {
-    S::per_step(S::real(I16F16::from_bits(4)))
-}
+/// What solving leaves of a velocity in a heap at rest, at most, px a step (0.004 px/s).
+const RESIDUE: I16F16 = ratio(1, 1 << 14);
 
 /// Calls a function for every live contact, with the velocities of its bodies.
 #[inline(always)] // each caller's loop keeps the upper body's velocity in registers
@@ -189,7 +186,7 @@ fn hand<S: Scalar>(
     pushed_apart_widely(contact, vec2(change, zero), a, b)
 }
 
-/// Changes the velocities as a contact calls for; whether by more than a [`residue`].
+/// Changes the velocities as a contact calls for; whether by more than a [`RESIDUE`].
 #[inline(always)] // into the loop over contacts
 fn visit<S: Scalar>(
     contact: &mut Contact<S>,
@@ -224,7 +221,7 @@ fn visit<S: Scalar>(
     }
     contact.impulse = vec2(along_normal, along_tangent);
     (*a, *b) = pushed_apart(contact, change, *a, *b, switches);
-    !change.x.is_within(residue::<S>())
+    !change.x.is_within(S::per_step(S::real(RESIDUE)))
 }
 
 /// Tame velocities after a tame change of their difference, each by its share.

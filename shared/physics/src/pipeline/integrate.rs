@@ -25,17 +25,22 @@ pub(crate) fn gravity<S: Scalar>(world: &World<'_, S>, switches: impl Switches) 
 /// Lets contacts bounce, then accelerates every rigid body.
 pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let gravity = gravity(world, switches);
-    if switches.on(Effects::BOUNCE) && world.level(switches) != Level::Flat {
-        bounce::bounce(world, gravity, switches);
-    }
+    let bounced = switches.on(Effects::BOUNCE)
+        && world.level(switches) != Level::Flat
+        && bounce::bounce(world, gravity, switches);
     let (damping, cap) = (world.config.damping, world.speed_cap);
     let below_cap = S::half_speed(cap); // along both axes: most need no root
     let scaled = switches.variety().contain(Variety::GRAVITY_SCALES) && world.variety.contain(Variety::GRAVITY_SCALES);
+    // Where nobody was near the cap when the step began, only forces and bounces may bring somebody there.
+    let pull = gravity.x.abs().saturating_add(gravity.y.abs());
+    let near_cap = bounced || scaled || world.fastest.saturating_add(pull) > below_cap;
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
         let before = body.velocity;
         let mut velocity = before;
+        let mut may_exceed = near_cap;
         if body.marks.has(Marks::FORCED) {
+            may_exceed = true;
             // What the game's forces add lies where the velocity goes now.
             velocity = velocity.saturating_add(world.before[usize::from(slot)]);
         }
@@ -62,7 +67,7 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
             velocity = velocity.map(|v| S::speed_scaled(v, damping));
         }
         let is_slow = |v: Vec2<S::Speed>| v.x.is_within(below_cap) && v.y.is_within(below_cap);
-        if switches.on(Effects::SPEED_CAP) && !is_slow(velocity) {
+        if switches.on(Effects::SPEED_CAP) && may_exceed && !is_slow(velocity) {
             velocity = S::capped(velocity, cap);
         }
         body.velocity = velocity;
