@@ -154,7 +154,7 @@ pub struct RunArgs {
     pub reset: ResetArgs,
 
     /// Inverts a bit of a body's horizontal velocity on the last target, after a stage (number or name) of a step:
-    /// proves that the comparison notices
+    /// proves that the comparison notices. Rest swallows the last bits, then nothing parts
     #[arg(long, value_name = "STEP:STAGE:BODY:BIT", value_parser = flip)]
     pub flip: Option<Flip>,
 }

@@ -55,7 +55,7 @@ fn every_scene_passes_on_the_mock_and_the_file_says_so() {
 #[test]
 fn two_mocks_agree_and_a_flipped_one_does_not() {
     assert_eq!(rig(&["run", "crate_columns", "--steps", "60", "--target", "mock,mock"]).status.code(), Some(0));
-    let output = rig(&["run", "crate_columns", "--steps", "60", "--target", "mock,mock", "--flip", "30:1:5:0"]);
+    let output = rig(&["run", "crate_columns", "--steps", "60", "--target", "mock,mock", "--flip", "30:1:5:16"]);
     assert_eq!(output.status.code(), Some(1));
     let told = text(&output.stdout);
     for words in ["step 30, after stage integrate_velocity", "velocity.x of body 5"] {
