@@ -41,6 +41,7 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
     if switches.variety().contain(Variety::MASSES) && world.uneven {
         let falls = integrate::gravity(world, switches) != Vec2::default();
         carry(world, falls, false, Some(correction));
+        world.strays = true; // nobody has looked where the rows' ends came to lie
     }
 }
 
