@@ -97,13 +97,18 @@ impl BitOr for Effects {
 /// The names, joined by ` + `.
 impl fmt::Display for Effects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut names = Self::NAMES.iter().enumerate().filter(|(bit, _)| self.0 >> bit & 1 == 1);
-        let Some((_, first)) = names.next() else {
-            return f.write_str("none");
-        };
-        f.write_str(first)?;
-        names.try_for_each(|(_, name)| write!(f, " + {name}"))
+        write_names(self.0, &Self::NAMES, "none", f)
     }
+}
+
+/// Writes the names of the bits that are set, joined by ` + `, or what an empty set is called.
+pub(crate) fn write_names(bits: u16, names: &[&str], empty: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let mut names = names.iter().enumerate().filter(|(bit, _)| bits >> bit & 1 == 1);
+    let Some((_, first)) = names.next() else {
+        return f.write_str(empty);
+    };
+    f.write_str(first)?;
+    names.try_for_each(|(_, name)| write!(f, " + {name}"))
 }
 
 /// Says which effects are on, and which levels of accuracy and bodies there are.

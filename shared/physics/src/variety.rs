@@ -5,6 +5,8 @@
 
 use core::fmt;
 
+use crate::effects::write_names;
+
 /// What bodies may be besides boxes of mass 1 that feel the world's gravity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variety(u8);
@@ -56,11 +58,6 @@ impl Variety {
 /// The names, joined by ` + `.
 impl fmt::Display for Variety {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut names = Self::NAMES.iter().enumerate().filter(|(bit, _)| self.0 >> bit & 1 == 1);
-        let Some((_, first)) = names.next() else {
-            return f.write_str("boxes");
-        };
-        f.write_str(first)?;
-        names.try_for_each(|(_, name)| write!(f, " + {name}"))
+        write_names(self.0.into(), &Self::NAMES, "boxes", f)
     }
 }

@@ -8,6 +8,7 @@ use ::fixed::types::I16F16;
 use crate::body::{Body, Marks};
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
+use crate::geometry::direction;
 use crate::pipeline::order::Ground;
 use crate::pipeline::{ccd, one_way, terrain};
 use crate::scalar::{Quantity, Scalar, ratio};
@@ -297,12 +298,6 @@ fn rounded<S: Scalar>(
         gap = leeway::<S>(offset, touch, closing, normal, gap);
     }
     Some(Manifold { normal, axis: along::<S>(normal), gap })
-}
-
-/// The direction and the length of a vector, for all but the commonest pairs: in one place.
-#[inline(never)]
-fn direction<S: Scalar>(v: Vec2<S::Real>) -> Option<(Vec2<S::Unit>, S::Real)> {
-    S::direction(v)
 }
 
 /// The axis that a normal lies on.

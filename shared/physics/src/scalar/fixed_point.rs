@@ -95,6 +95,13 @@ fn reciprocal_sqrt(t: u32) -> u32 {
     y
 }
 
+/// Whether both are in `-2^BITS..2^BITS`.
+#[inline]
+fn are_small<const BITS: u32>(x: i32, y: i32) -> bool {
+    let shifted = |v: i32| v.wrapping_add(1 << BITS);
+    ((shifted(x) | shifted(y)) as u32) >> (BITS + 1) == 0
+}
+
 /// Leading zeros, of those an even number: by halves, for chips that have no instruction for it.
 #[inline]
 fn even_leading_zeros(mut word: u32) -> u32 {
@@ -205,9 +212,7 @@ impl Scalar for Fixed {
     }
     #[inline]
     fn is_negligible(change: Vec2<I8F24>) -> bool {
-        const LEAST: i32 = 1 << 6;
-        let shifted = |v: I8F24| v.to_bits().wrapping_add(LEAST);
-        ((shifted(change.x) | shifted(change.y)) as u32) >> 7 == 0
+        are_small::<6>(change.x.to_bits(), change.y.to_bits())
     }
     #[inline]
     fn is_nearly_same(a: Vec2<I8F24>, b: Vec2<I8F24>) -> bool {
@@ -216,9 +221,7 @@ impl Scalar for Fixed {
     }
     #[inline]
     fn is_at_rest(a: Vec2<I8F24>, b: Vec2<I8F24>) -> bool {
-        const LEAST: i32 = 1 << 9;
-        let shifted = |a: I8F24, b: I8F24| b.to_bits().wrapping_sub(a.to_bits()).wrapping_add(LEAST);
-        ((shifted(a.x, b.x) | shifted(a.y, b.y)) as u32) >> 10 == 0
+        are_small::<9>(b.x.wrapping_sub(a.x).to_bits(), b.y.wrapping_sub(a.y).to_bits())
     }
     #[inline]
     fn into_frame(vector: Vec2<I8F24>, normal: Vec2<I2F30>) -> Vec2<I8F24> {
