@@ -193,7 +193,10 @@ pub fn turn() -> Result<Turn, Error> {
 }
 
 /// Cargo's target directory for the boards.
-fn directory() -> Result<PathBuf, Error> {
+///
+/// # Errors
+/// If there is no workspace.
+pub fn directory() -> Result<PathBuf, Error> {
     Ok(workspace::target_dir()?.join("firmware"))
 }
 

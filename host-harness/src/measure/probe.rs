@@ -11,13 +11,11 @@ use object::{LittleEndian, Object, ObjectSegment};
 
 use crate::error::Error;
 use crate::firmware::toolchain::{RISCV_TARGET, Toolchain};
-use crate::firmware::{image, subprocess, workspace};
+use crate::firmware::{image, subprocess};
 use crate::interpret::{Call, Machine, Tally};
 use crate::job::Job;
 use crate::setting::names;
 
-/// The profile that device images are built with.
-const PROFILE: &str = "firmware";
 /// The probe's memory: see its linker script.
 const MEMORY: usize = 8 << 20;
 /// Instructions between two marks that no step takes, and no scene's set-up.
@@ -55,7 +53,7 @@ impl Program {
 /// If there is no toolchain or it doesn't compile.
 pub fn build(program: Program, effects: Option<Effects>) -> Result<PathBuf, Error> {
     let mut cargo = Toolchain::find()?.cargo("build")?;
-    cargo.args(["--package", "flat-probe", "--profile", PROFILE, "--bin", program.bin()]);
+    cargo.args(["--package", "flat-probe", "--profile", image::PROFILE, "--bin", program.bin()]);
     match effects {
         Some(effects) => cargo.env("FLAT_PROBE_EFFECTS", effects.bits().to_string()),
         None => cargo.env_remove("FLAT_PROBE_EFFECTS"),
@@ -63,8 +61,8 @@ pub fn build(program: Program, effects: Option<Effects>) -> Result<PathBuf, Erro
     let of = effects.map_or_else(|| "all effects at run time".to_owned(), |effects| effects.to_string());
     let turn = image::turn()?;
     subprocess::run(&format!("building the {} probe for {of}", program.bin()), &mut cargo)?;
-    let directory = workspace::target_dir()?.join("firmware");
-    let built = directory.join(RISCV_TARGET).join(PROFILE).join(program.bin());
+    let directory = image::directory()?;
+    let built = directory.join(RISCV_TARGET).join(image::PROFILE).join(program.bin());
     let effects = effects.map_or_else(|| "any".to_owned(), |effects| names(effects, "+"));
     let file = format!("{}-{effects}.elf", program.bin());
     let image = directory.join("probes").join(file);
