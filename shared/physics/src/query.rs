@@ -12,7 +12,6 @@ use crate::error::{Error, Field, check};
 use crate::geometry::{Bounds, Hit, Outline, cast, part, touches};
 use crate::handle::Handle;
 use crate::kinematics::Collider;
-use crate::pipeline::grid;
 use crate::scalar::{EXTENT_LIMIT, POSITION_LIMIT, Scalar};
 use crate::tiles::{Tile, TileHit, TileMap};
 use crate::vec2::Vec2;
@@ -234,7 +233,7 @@ impl<S: Scalar> World<'_, S> {
         };
         if let Some((dynamics, statics)) = self.layers.up_to_date() {
             dynamics.iter().copied().for_each(&mut offer);
-            statics.visit(&grid::Bounds { min, max }, self.bodies, &mut offer);
+            statics.visit(&Bounds { min, max }, self.bodies, &mut offer);
         } else {
             self.slots_from(0).for_each(|(slot, _)| offer(slot));
         }

@@ -10,15 +10,17 @@
 use super::grid::Grid;
 use super::order::{self, Ground};
 use super::pairs::{NONE, Update};
-use super::sweep::{Near, Sweep};
+use super::sweep::{self, Near, Sweep};
 use super::terrain;
 use super::{carry, integrate};
 use crate::body::{Body, Profile};
 use crate::contact::Flags;
 use crate::effects::{Effects, Switches};
+use crate::geometry::Bounds;
 use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::tiles::TileMap;
 use crate::variety::Variety;
+use crate::vec2::vec2;
 use crate::world::World;
 
 /// How far bodies move before pairs are looked for again, px.
@@ -208,7 +210,6 @@ enum Wanted {
 
 #[inline(never)]
 fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: Wanted) {
-    let sensors = switches.on(Effects::SENSORS);
     let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
     let terrain = world.terrain;
     let World { bodies, profiles, layers, pool, tiles, smallest, fastest, uneven, .. } = world;
@@ -235,28 +236,74 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let closing = S::in_a_step(fastest.saturating_add(*fastest));
     // Until pairs are next looked for, either body may move by a skin. Where somebody is fast, that is in the next step.
     let margin = S::real(px(if *fastest < skin::<S>() { 2 * SKIN } else { SKIN }));
-    let mut sweep = Sweep::new(links, dynamics, bodies, ground);
-    for (rank, &slot) in dynamics.iter().enumerate() {
-        let body = &bodies[usize::from(slot)];
-        if !body.status.collides() {
+    let map = (switches.on(Effects::TILES) && terrain != NONE).then_some((terrain, &*tiles));
+    if map.is_some() || !grid.is_empty() {
+        note_fixed(dynamics, margin, grid, map, &pairs, &mut update);
+    }
+    note_moving(dynamics, margin, closing, links, &pairs, &mut update);
+    update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
+}
+
+/// Notes what bodies may touch of the static layer, and of the tile map and its slot.
+#[inline(never)]
+fn note_fixed<S: Scalar, W: Switches>(
+    dynamics: &[u16],
+    margin: S::Real,
+    grid: &Grid<'_>,
+    map: Option<(u16, &TileMap<'_>)>,
+    pairs: &Pairs<'_, S, W>,
+    update: &mut Update<'_, '_, S>,
+) {
+    for &slot in dynamics {
+        let body = &pairs.bodies[usize::from(slot)];
+        let is_rigid = body.status.is_rigid();
+        if !body.status.collides() || !(is_rigid || pairs.switches.on(Effects::SENSORS)) {
             continue;
         }
-        let near = Near::new(body, margin, closing);
-        sweep.visit(rank, dynamics, &near, &pairs, &mut update);
-        if !grid.is_empty() && (body.status.is_rigid() || sensors) {
-            // Whoever sleeps is found by rigid bodies; others have woken it if they move.
-            let finds = |other: u16| body.status.is_rigid() || bodies[usize::from(other)].status.is_static();
-            grid.visit(&near.bounds(), bodies, &mut |other| {
-                if finds(other) {
-                    pairs.note(slot, other, &mut update);
+        let way = body.velocity.map(|v| sweep::magnitude(S::in_a_step(v)) + margin);
+        if !grid.is_empty() {
+            let reach = body.half + way;
+            let bounds = Bounds { min: body.position - reach, max: body.position + reach };
+            grid.visit(&bounds, pairs.bodies, &mut |other| {
+                // Whoever sleeps is found by rigid bodies; others have woken it if they move.
+                if is_rigid || pairs.bodies[usize::from(other)].status.is_static() {
+                    pairs.note(slot, other, update);
                 }
             });
         }
-        if switches.on(Effects::TILES) && terrain != NONE && (body.status.is_rigid() || sensors) {
-            look_for_tiles(slot, terrain, body, margin, &mut update, tiles, profiles);
+        if let Some((map, tiles)) = map {
+            let reach = way.x.greater(way.y);
+            let around = tiles.bits_around::<S>(body.position, body.half + vec2(reach, reach));
+            // Most are near nothing.
+            if around != 0 {
+                note_tiles(slot, map, reach, around, tiles, pairs, update);
+            }
         }
     }
-    update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
+}
+
+/// Notes which bodies that may move may meet.
+#[inline(never)]
+fn note_moving<S: Scalar, W: Switches>(
+    dynamics: &[u16],
+    margin: S::Real,
+    closing: S::Real,
+    links: &mut [u16],
+    pairs: &Pairs<'_, S, W>,
+    update: &mut Update<'_, '_, S>,
+) {
+    let bodies = pairs.bodies;
+    let mut sweep = Sweep::new(links, dynamics, bodies, pairs.ground);
+    for &slot in dynamics {
+        let body = &bodies[usize::from(slot)];
+        if body.status.collides() {
+            sweep.visit(slot, &Near::new(body, margin, closing), bodies, |other| {
+                if !(pairs.are_known_of(body) && update.keep_pair(slot, other)) {
+                    pairs.note(slot, other, update);
+                }
+            });
+        }
+    }
 }
 
 /// What a search needs to know to tell which pairs of bodies count.
@@ -293,7 +340,7 @@ impl<S: Scalar, W: Switches> Pairs<'_, S, W> {
         if self.changed && !self.meet(a, b) {
             return;
         }
-        if !update.keep_pair(update.group(a), a, b) && (self.changed || self.meet(a, b)) {
+        if !update.keep_pair(a, b) && (self.changed || self.meet(a, b)) {
             update.add_pair(a, b, self.bodies, self.profiles, self.switches);
         }
     }
@@ -309,26 +356,27 @@ impl<S: Scalar, W: Switches> Pairs<'_, S, W> {
 }
 
 /// Makes room for what a body may touch of the tile map before it has moved by a skin, or in this step at its speed.
-fn look_for_tiles<S: Scalar>(
+#[inline(never)]
+fn note_tiles<S: Scalar, W: Switches>(
     slot: u16,
     map: u16,
-    body: &Body<S>,
-    margin: S::Real,
-    update: &mut Update<'_, '_, S>,
+    reach: S::Real,
+    around: u8,
     tiles: &TileMap<'_>,
-    profiles: &[Profile<S>],
+    pairs: &Pairs<'_, S, W>,
+    update: &mut Update<'_, '_, S>,
 ) {
-    // Most are near nothing: that is asked first.
-    let meets = || profiles[usize::from(slot)].meets(&profiles[usize::from(map)]);
-    let speed = body.velocity.map(S::in_a_step);
-    let reach = margin + speed.x.abs().greater(speed.y.abs());
+    let (body, profiles) = (&pairs.bodies[usize::from(slot)], pairs.profiles);
+    if !profiles[usize::from(slot)].meets(&profiles[usize::from(map)]) {
+        return;
+    }
     if body.status.is_rigid() && !body.status.is_sensor() {
-        let room = terrain::room(tiles, body, reach);
-        if room > 0 && meets() {
+        let room = terrain::room(tiles, body, reach, around);
+        if room > 0 {
             update.note_terrain(slot, map, room, profiles);
         }
     }
-    if tiles.sensors() > 0 && meets() {
+    if tiles.sensors() > 0 {
         terrain::sensors(tiles, body, reach, |number| update.note_sensor_tile(slot, map, number, profiles));
     }
 }

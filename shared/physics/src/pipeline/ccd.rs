@@ -13,7 +13,7 @@ use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
 use crate::geometry::{Bounds, Hit, Outline, along, cast, without};
 use crate::pipeline::order::Ground;
-use crate::pipeline::{grid, integrate, one_way, terrain};
+use crate::pipeline::{integrate, one_way, terrain};
 use crate::scalar::{Exact, Quantity, Scalar, ratio};
 use crate::tiles::Tile;
 use crate::vec2::Vec2;
@@ -180,7 +180,6 @@ fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl S
     let (outline, motion) =
         (Outline::of(&world.bodies[usize::from(slot)]), motion(slot, world, switches).map(S::in_a_step));
     let way = Bounds::swept(&outline, motion);
-    let way = grid::Bounds { min: way.min, max: way.max };
     let World { bodies, profiles, layers, .. } = world;
     let mut body = bodies[usize::from(slot)];
     if !body.status.is_rigid() || !body.marks.has(Marks::FAST) {

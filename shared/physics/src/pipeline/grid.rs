@@ -1,8 +1,9 @@
 //! The static layer: a hashed grid, built once and read every step.
 
 use crate::body::Body;
+use crate::geometry::Bounds;
 use crate::scalar::Scalar;
-use crate::vec2::{Vec2, vec2};
+use crate::vec2::vec2;
 
 /// Cells along each side of the torus.
 const SIDE: i32 = 16;
@@ -25,26 +26,6 @@ pub(crate) struct Grid<'a> {
     shift: u32,
 }
 
-/// An upright rectangle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds<S: Scalar> {
-    pub(crate) min: Vec2<S::Real>,
-    pub(crate) max: Vec2<S::Real>,
-}
-
-impl<S: Scalar> Bounds<S> {
-    pub(crate) fn around(centre: Vec2<S::Real>, half: Vec2<S::Real>) -> Self {
-        Self { min: centre.saturating_sub(half), max: centre.saturating_add(half) }
-    }
-
-    fn touch(&self, body: &Body<S>) -> bool {
-        body.left() <= self.max.x
-            && body.right() >= self.min.x
-            && body.top() <= self.max.y
-            && body.bottom() >= self.min.y
-    }
-}
-
 /// A span of cells, ends included.
 #[derive(Clone, Copy)]
 struct Cells {
@@ -63,7 +44,7 @@ impl Cells {
 
     #[inline]
     fn under<S: Scalar>(body: &Body<S>, shift: u32) -> Self {
-        Self::of::<S>(&Bounds { min: vec2(body.left(), body.top()), max: vec2(body.right(), body.bottom()) }, shift)
+        Self::of::<S>(&box_of(body), shift)
     }
 
     /// Calls a function for every bucket.
@@ -80,6 +61,11 @@ impl Cells {
     fn meeting_bucket(self, other: Self) -> usize {
         bucket(self.left.max(other.left), self.top.max(other.top))
     }
+}
+
+#[inline]
+fn box_of<S: Scalar>(body: &Body<S>) -> Bounds<S> {
+    Bounds { min: vec2(body.left(), body.top()), max: vec2(body.right(), body.bottom()) }
 }
 
 #[inline]
@@ -124,6 +110,7 @@ impl<'a> Grid<'a> {
     }
 
     /// Files the bodies in the finest cells that fit.
+    #[inline(never)]
     pub(crate) fn rebuild<S: Scalar>(&mut self, statics: &[u16], bodies: &[Body<S>]) {
         let mut counts = [0u32; BUCKETS];
         for shift in finest(statics, bodies)..=COARSEST {
@@ -163,7 +150,7 @@ impl<'a> Grid<'a> {
             let start = if bucket == 0 { 0 } else { self.ends[bucket - 1] };
             for &slot in &self.entries[usize::from(start)..usize::from(self.ends[bucket])] {
                 let other = &bodies[usize::from(slot)];
-                if bounds.touch(other) && cells.meeting_bucket(Cells::under(other, self.shift)) == bucket {
+                if bounds.touch(&box_of(other)) && cells.meeting_bucket(Cells::under(other, self.shift)) == bucket {
                     note(slot);
                 }
             }

@@ -71,26 +71,39 @@ const GAPS: [usize; 8] = [701, 301, 132, 57, 23, 10, 4, 1];
 /// Sorts a list in any order.
 pub(crate) fn sort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
     for gap in GAPS {
-        insert(list, bodies, ground, gap);
+        for place in gap..list.len() {
+            insert(list, bodies, ground, place, gap);
+        }
     }
 }
 
 /// Sorts a list that was sorted not long ago.
 pub(crate) fn resort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
-    insert(list, bodies, ground, 1);
+    let key = |slot: u16| ground.upright(bodies[usize::from(slot)].position);
+    let Some(mut before) = list.first().map(|&slot| key(slot)) else {
+        return;
+    };
+    for place in 1..list.len() {
+        let own = key(list[place]);
+        // Most lie right.
+        if own == before || (own > before) != ground.reversed {
+            insert(list, bodies, ground, place, 1);
+            before = key(list[place]);
+        } else {
+            before = own;
+        }
+    }
 }
 
-/// One pass of insertion sort over every `gap`-th entry.
-fn insert<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground, gap: usize) {
-    for start in gap..list.len() {
-        let slot = list[start];
-        let mut place = start;
-        while place >= gap && precedes(slot, list[place - gap], bodies, ground) {
-            list[place] = list[place - gap];
-            place -= gap;
-        }
-        list[place] = slot;
+/// Moves an entry down to where it belongs among every `gap`-th one before it, which are sorted.
+#[inline(never)]
+fn insert<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground, mut place: usize, gap: usize) {
+    let slot = list[place];
+    while place >= gap && precedes(slot, list[place - gap], bodies, ground) {
+        list[place] = list[place - gap];
+        place -= gap;
     }
+    list[place] = slot;
 }
 
 /// From the lowest centre up, equal ones from left to right, then the lower ones, those by slot: a total order.

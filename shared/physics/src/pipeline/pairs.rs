@@ -43,16 +43,10 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
         Self { pool, groups, old, kept: 0, regroup: scattered }
     }
 
-    /// Where a body's contacts begin, or none.
+    /// Keeps the contact between two bodies, if there was one.
     #[inline]
-    pub(crate) fn group(&self, a: u16) -> u16 {
-        self.groups[usize::from(a)]
-    }
-
-    /// Keeps the contact between two bodies, if there was one. `group`: where those of the first begin.
-    #[inline]
-    pub(crate) fn keep_pair(&mut self, group: u16, a: u16, b: u16) -> bool {
-        let Some(contact) = self.find(group, a, b) else {
+    pub(crate) fn keep_pair(&mut self, a: u16, b: u16) -> bool {
+        let Some(contact) = self.find(a, b) else {
             return false;
         };
         contact.flags.set(Flags::KEPT);
@@ -72,7 +66,7 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
     ) {
         self.regroup = true;
         if !bodies[usize::from(b)].status.is_static()
-            && let Some(contact) = self.find(self.group(b), b, a)
+            && let Some(contact) = self.find(b, a)
         {
             // They have changed places in the order. Turned around, the same impulses push the same bodies.
             (contact.a, contact.b) = (a, b);
@@ -129,8 +123,9 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
 
     /// The contact between two bodies, if there was one.
     #[inline]
-    fn find(&mut self, group: u16, a: u16, b: u16) -> Option<&mut Contact<S>> {
-        let contacts = self.pool.all_mut().get_mut(usize::from(group)..self.old)?;
+    fn find(&mut self, a: u16, b: u16) -> Option<&mut Contact<S>> {
+        let first = usize::from(self.groups[usize::from(a)]);
+        let contacts = self.pool.all_mut().get_mut(first..self.old)?;
         contacts.iter_mut().take_while(|contact| contact.a == a).find(|contact| contact.b == b)
     }
 
@@ -212,33 +207,27 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
         (*group, *next) = (total, total);
         total += count;
     }
-    let (mut end, mut parted) = (total, total);
-    for &slot in order.iter().rev() {
-        let slot = usize::from(slot);
+    let mut parted = total;
+    for place in 0..total {
+        let contact = &contacts[usize::from(place)];
+        let group = usize::from(contact.a);
+        if !contact.has_parted() && (groups[group]..=next[group]).contains(&place) {
+            // It belongs here, and may be the first to have been looked at.
+            next[group] += u16::from(place == next[group]);
+            continue;
+        }
+        // Lifted out, a contact takes the place of another until one comes that belongs here.
+        let mut held = *contact;
         loop {
-            let place = next[slot];
-            if place >= end {
+            let goal = if held.has_parted() { &mut parted } else { &mut next[usize::from(held.a)] };
+            let free = *goal;
+            *goal += 1;
+            if free == place {
                 break;
             }
-            let contact = &contacts[usize::from(place)];
-            if usize::from(contact.a) == slot && !contact.has_parted() {
-                next[slot] += 1;
-                continue;
-            }
-            // Lifted out, a contact takes the place of another until one comes that belongs here.
-            let mut held = *contact;
-            loop {
-                let goal = if held.has_parted() { &mut parted } else { &mut next[usize::from(held.a)] };
-                let free = *goal;
-                *goal += 1;
-                if free == place {
-                    break;
-                }
-                core::mem::swap(&mut held, &mut contacts[usize::from(free)]);
-            }
-            contacts[usize::from(place)] = held;
+            core::mem::swap(&mut held, &mut contacts[usize::from(free)]);
         }
-        end = groups[slot];
+        contacts[usize::from(place)] = held;
     }
     usize::from(total)
 }

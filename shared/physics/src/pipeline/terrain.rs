@@ -29,10 +29,11 @@ const MOST: usize = DIRECTIONS + ROWS;
 const LEAST: usize = 2;
 
 /// How many blocking contacts with the map a body may need before pairs are next looked for. `reach` is how far it may come by
-/// then, px.
-pub(crate) fn room<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, reach: S::Real) -> usize {
+/// then, px; `around`, the [bits](TileMap::bits_around) that there are.
+#[inline]
+pub(crate) fn room<S: Scalar>(tiles: &TileMap<'_>, body: &Body<S>, reach: S::Real, around: u8) -> usize {
     let (mut count, mut last) = (0, None);
-    tiles.contacts(&Outline::of(body), reach, |contact| {
+    tiles.contacts_of(&Outline::of(body), reach, around, &mut |contact| {
         // Of a row of one-way tiles, which are visited one after the other, one counts.
         let row = contact.tile.flags.is_one_way().then_some(contact.tile.row);
         count += usize::from(row.is_none() || row != last);

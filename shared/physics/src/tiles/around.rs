@@ -1,23 +1,13 @@
-//! The common case of a shape near tiles: it reaches no further than the eight tiles around the place where its centre is.
+//! What is around a shape: mostly nothing; and the common case of a circle that reaches no further than the eight tiles around the
+//! place where its centre is.
 
+use super::axis::Axis;
 use super::contacts::TileContact;
-use super::flags::TileFlags;
-use super::map::{BLOCKING, Side, Tile, TileMap, is_solid};
+use super::map::{Side, Tile, TileMap, is_solid};
 use super::touch::rounded;
 use crate::geometry::Outline;
 use crate::scalar::{Quantity, Scalar};
 use crate::vec2::{Vec2, vec2};
-
-/// What is near a shape.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Around {
-    /// Nothing that blocks: so it is with most shapes.
-    Nothing,
-    /// The shape is a circle with its centre in a free place, and of the eight tiles around that place some are solid.
-    Solid,
-    /// Something else.
-    Other,
-}
 
 /// A place inside a map, with tiles on all sides, as seen from a point in it.
 struct Place<S: Scalar> {
@@ -32,30 +22,25 @@ struct Place<S: Scalar> {
 const SIDES: [Side; 4] = [Side::Left, Side::Right, Side::Top, Side::Bottom];
 
 impl TileMap<'_> {
-    /// Looks at the tiles around a shape.
+    /// The bits of all tiles that something around a point overlaps or touches, and perhaps of some less than 2 px further away.
     #[inline(never)]
-    pub(super) fn around<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real) -> Around {
-        let reach = outline.half.map(|half| half.saturating_add(margin));
-        let Some(place) = self.place::<S>(outline.centre).filter(|place| place.covers(reach)) else {
-            return Around::Other;
+    pub(crate) fn bits_around<S: Scalar>(&self, centre: Vec2<S::Real>, reach: Vec2<S::Real>) -> u8 {
+        let between = |axis: &Axis, centre: S::Real, reach: S::Real| {
+            let (centre, reach) = (S::floor(centre), S::floor(reach).saturating_add(1));
+            axis.between(centre.saturating_sub(reach), centre.saturating_add(reach))
         };
-        let mask = |near: bool| if near { BLOCKING } else { 0 };
-        let (left, right) = (mask(place.before.x <= reach.x), mask(place.beyond.x <= reach.x));
-        let row = |row: u32| {
-            let around = self.row(row, &(place.column - 1..place.column + 2));
-            around.first_chunk().map_or(0, |[l, own, r]| l & left | own & BLOCKING | r & right)
-        };
-        let own = row(place.row);
-        let over = if place.before.y <= reach.y { row(place.row - 1) } else { 0 };
-        let under = if place.beyond.y <= reach.y { row(place.row + 1) } else { 0 };
-        let all = own | over | under;
-        if all == 0 {
-            Around::Nothing
-        } else if outline.circle && all & TileFlags::ONE_WAY.bits() == 0 && !self.is_solid(place.column, place.row) {
-            Around::Solid
-        } else {
-            Around::Other
+        let (columns, rows) = self.axes();
+        let pitch = columns.count();
+        let (columns, rows) = (between(columns, centre.x, reach.x), between(rows, centre.y, reach.y));
+        let mut bits = 0;
+        let mut row = rows.start * pitch;
+        for _ in rows {
+            for column in columns.clone() {
+                bits |= self.byte(row + column);
+            }
+            row += pitch;
         }
+        bits
     }
 
     #[inline]
@@ -67,20 +52,22 @@ impl TileMap<'_> {
         Some(Place { column, row, before, beyond })
     }
 
-    /// Visits where a circle with [`Around::Solid`] touches tiles, or comes closer than `margin`. Their faces towards the free
-    /// place exist.
+    /// Visits where a circle touches solid tiles, or comes closer than `margin`: if its centre is in a free place, it reaches none
+    /// but the eight tiles around that, and none of those is one-way. Their faces towards the free place exist. False, and nothing
+    /// visited, if its centre is in no such place.
     #[inline(never)]
     pub(super) fn contacts_around<S: Scalar>(
         &self,
         circle: &Outline<S>,
         margin: S::Real,
         visit: &mut dyn FnMut(TileContact<S>),
-    ) {
-        let Some(place) = self.place::<S>(circle.centre) else {
-            return;
-        };
+    ) -> bool {
         let radius = circle.half.x;
         let reach = radius.saturating_add(margin);
+        let is_free = |place: &Place<S>| place.covers(reach) && self.solid_at(place.column, place.row).is_none();
+        let Some(place) = self.place::<S>(circle.centre).filter(is_free) else {
+            return false;
+        };
         // Sides without a face, within reach.
         let mut open = [false; 4];
         for side in SIDES {
@@ -107,6 +94,7 @@ impl TileMap<'_> {
                 }
             }
         }
+        true
     }
 
     /// The tile at coordinates that are in the map, if it is solid.
@@ -133,10 +121,9 @@ fn visit_corner<S: Scalar>(
 impl<S: Scalar> Place<S> {
     /// Whether what reaches so far from the point, which is in no other place, ends in the places around this one.
     #[inline]
-    fn covers(&self, reach: Vec2<S::Real>) -> bool {
-        let inside =
-            |before: S::Real, beyond: S::Real, reach: S::Real| before > S::Real::ZERO && reach <= before + beyond;
-        inside(self.before.x, self.beyond.x, reach.x) && inside(self.before.y, self.beyond.y, reach.y)
+    fn covers(&self, reach: S::Real) -> bool {
+        let inside = |before: S::Real, beyond: S::Real| before > S::Real::ZERO && reach <= before + beyond;
+        inside(self.before.x, self.beyond.x) && inside(self.before.y, self.beyond.y)
     }
 
     /// Distance to an edge, px.

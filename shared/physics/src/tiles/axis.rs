@@ -10,6 +10,8 @@ pub(super) struct Axis {
     origin: i16,
     size: u8,
     count: u32,
+    /// px from the start to the end.
+    extent: i32,
     /// Where what has more of it on both sides begins and how far it extends, px.
     inside: i32,
     inside_extent: u32,
@@ -21,7 +23,9 @@ impl Axis {
     pub(super) fn new(origin: i16, size: u8, count: u16) -> Self {
         let reciprocal = (1_u32 << 24).div_ceil(u32::from(size));
         let (inside, inside_count) = (i32::from(origin) + i32::from(size), u32::from(count.saturating_sub(2)));
-        Self { origin, size, count: count.into(), inside, inside_extent: inside_count * u32::from(size), reciprocal }
+        let extent = i32::from(size) * i32::from(count);
+        let inside_extent = inside_count * u32::from(size);
+        Self { origin, size, count: count.into(), extent, inside, inside_extent, reciprocal }
     }
 
     pub(super) fn origin(&self) -> i16 {
@@ -50,17 +54,11 @@ impl Axis {
         ((u64::from((distance as u32) << 8) * u64::from(self.reciprocal)) >> 32) as u32
     }
 
-    /// px from the start to the end.
-    #[inline]
-    fn extent(&self) -> i32 {
-        i32::from(self.size) * self.count as i32
-    }
-
     /// What covers a coordinate in whole px; `u32::MAX` if nothing does.
     #[inline]
     pub(super) fn index(&self, whole_px: i32) -> u32 {
         let distance = whole_px.saturating_sub(self.origin.into());
-        if (0..self.extent()).contains(&distance) { self.divided(distance) } else { u32::MAX }
+        if (0..self.extent).contains(&distance) { self.divided(distance) } else { u32::MAX }
     }
 
     /// What covers a coordinate in whole px, if there is more of it on both sides.
@@ -74,12 +72,19 @@ impl Axis {
     #[inline(never)]
     pub(super) fn span<S: Scalar>(&self, low: S::Real, high: S::Real) -> Range<u32> {
         // The last px that begins below `low`, so that touching counts on both sides alike.
-        let first = S::floor(S::Real::ZERO.saturating_sub(low))
-            .saturating_neg()
-            .saturating_sub(1)
-            .saturating_sub(self.origin.into());
-        let last = S::floor(high).saturating_sub(self.origin.into());
-        let extent = self.extent();
+        let first = S::floor(S::Real::ZERO.saturating_sub(low)).saturating_neg().saturating_sub(1);
+        self.between(first, S::floor(high))
+    }
+
+    /// What covers any of an interval in whole px, ends included.
+    #[inline]
+    pub(super) fn between(&self, first: i32, last: i32) -> Range<u32> {
+        let [first, last] = [first, last].map(|whole_px| whole_px.saturating_sub(self.origin.into()));
+        let extent = self.extent;
+        let is_inside = |distance: i32| (distance as u32) < extent as u32;
+        if is_inside(first) && is_inside(last) {
+            return self.divided(first)..self.divided(last) + 1;
+        }
         if last < 0 || first >= extent {
             return 0..0;
         }

@@ -6,8 +6,8 @@
 
 use heapless::Vec;
 
-use super::around::Around;
-use super::map::{Tile, TileMap, is_one_way, is_solid};
+use super::flags::TileFlags;
+use super::map::{BLOCKING, Tile, TileMap, is_one_way, is_solid};
 use super::touch::{Candidate, Probe, offset};
 use crate::geometry::{Bounds, Outline};
 use crate::scalar::{Quantity, Scalar};
@@ -36,10 +36,25 @@ impl TileMap<'_> {
     /// is stopped by it.
     #[inline]
     pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, mut visit: impl FnMut(TileContact<S>)) {
-        match self.around(outline, margin) {
-            Around::Nothing => {}
-            Around::Solid => self.contacts_around(outline, margin, &mut visit),
-            Around::Other => self.contacts_among(outline, margin, &mut visit),
+        let around = self.bits_around::<S>(outline.centre, outline.half.map(|half| half.saturating_add(margin)));
+        self.contacts_of(outline, margin, around, &mut visit);
+    }
+
+    /// The same, where the bits of the tiles around are known.
+    #[inline]
+    pub(crate) fn contacts_of<S: Scalar>(
+        &self,
+        outline: &Outline<S>,
+        margin: S::Real,
+        around: u8,
+        visit: &mut dyn FnMut(TileContact<S>),
+    ) {
+        if around & BLOCKING == 0 {
+            return;
+        }
+        let round = outline.circle && around & TileFlags::ONE_WAY.bits() == 0;
+        if !round || !self.contacts_around(outline, margin, visit) {
+            self.contacts_among(outline, margin, visit);
         }
     }
 
