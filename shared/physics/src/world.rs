@@ -137,7 +137,7 @@ pub struct World<'a, S: Scalar> {
     pub(crate) strays: bool,
     pub(crate) speed_cap: S::Speed,
     /// Slots below this have held a body since the world was last empty.
-    used: u16,
+    pub(crate) used: u16,
     /// First free slot below `used`, plus 1; 0 = none.
     free: u16,
     count: u16,

@@ -212,8 +212,8 @@ enum Wanted {
 fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: Wanted) {
     let tell_ends = switches.on(Effects::EVENTS) && world.told_at == Some(world.steps);
     let terrain = world.terrain;
-    let World { bodies, profiles, layers, pool, tiles, smallest, fastest, uneven, .. } = world;
-    let (bodies, profiles) = (&**bodies, &**profiles);
+    let World { bodies, profiles, layers, pool, tiles, smallest, fastest, uneven, used, .. } = world;
+    let (bodies, profiles) = (&bodies[..usize::from(*used)], &**profiles);
     if !tell_ends {
         pool.forget_aside();
     }
@@ -231,7 +231,7 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     }
     let Layers { order, dynamic_count, links, groups, grid, ground, scattered, .. } = layers;
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);
-    let mut update = Update::new(pool, groups, dynamics, core::mem::take(scattered));
+    let mut update = Update::new(pool, groups, core::mem::take(scattered));
     let pairs = Pairs { bodies, profiles, ground, switches, wanted, changed };
     let closing = S::in_a_step(fastest.saturating_add(*fastest));
     // Until pairs are next looked for, either body may move by a skin. Where somebody is fast, that is in the next step.

@@ -23,6 +23,8 @@ pub(crate) struct Grid<'a> {
     entries: &'a mut [u16],
     /// Where each bucket ends; it begins where the one before ends.
     ends: [u16; BUCKETS],
+    /// Buckets that hold somebody, row by row, a bit a column: most bodies are near none.
+    taken: [u16; SIDE as usize],
     shift: u32,
 }
 
@@ -55,6 +57,14 @@ impl Cells {
                 visit(bucket(x, y));
             }
         }
+    }
+
+    /// Whether one of the buckets is taken.
+    #[inline]
+    fn meet(self, taken: &[u16; SIDE as usize]) -> bool {
+        let columns = (2u32 << (self.right - self.left).min(SIDE - 1)) - 1;
+        let columns = (columns as u16).rotate_left((self.left & (SIDE - 1)) as u32);
+        (self.top..=self.bottom.min(self.top + SIDE - 1)).any(|y| taken[(y & (SIDE - 1)) as usize] & columns != 0)
     }
 
     /// The bucket of the cell in which two bodies' common part begins: there, and only there, the pair is reported.
@@ -99,14 +109,14 @@ fn finest<S: Scalar>(statics: &[u16], bodies: &[Body<S>]) -> u32 {
 impl<'a> Grid<'a> {
     /// An empty grid. `entries` holds at least one entry for each static body; more make finer cells.
     pub(crate) fn new(entries: &'a mut [u16]) -> Self {
-        Self { entries, ends: [0; BUCKETS], shift: FINEST }
+        Self { entries, ends: [0; BUCKETS], taken: [0; SIDE as usize], shift: FINEST }
     }
 
     /// Becomes as another one of the same size is.
     pub(crate) fn copy_from(&mut self, other: &Grid<'_>) {
-        let Grid { entries, ends, shift } = other;
+        let Grid { entries, ends, taken, shift } = other;
         self.entries.copy_from_slice(entries);
-        (self.ends, self.shift) = (*ends, *shift);
+        (self.ends, self.taken, self.shift) = (*ends, *taken, *shift);
     }
 
     /// Files the bodies in the finest cells that fit.
@@ -124,9 +134,11 @@ impl<'a> Grid<'a> {
             }
         }
         let mut total = 0;
-        for (end, count) in self.ends.iter_mut().zip(counts) {
+        self.taken = [0; SIDE as usize];
+        for (bucket, (end, count)) in self.ends.iter_mut().zip(counts).enumerate() {
             *end = total; // a start, until the bucket is filled
             total += count as u16;
+            self.taken[bucket / SIDE as usize] |= u16::from(count > 0) << (bucket % SIDE as usize);
         }
         for &slot in statics {
             Cells::under(&bodies[usize::from(slot)], self.shift).each_bucket(|bucket| {
@@ -146,6 +158,9 @@ impl<'a> Grid<'a> {
     /// Notes all static bodies whose bounding boxes touch these bounds, each once.
     pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
         let cells = Cells::of(bounds, self.shift);
+        if !cells.meet(&self.taken) {
+            return;
+        }
         cells.each_bucket(|bucket| {
             let start = if bucket == 0 { 0 } else { self.ends[bucket - 1] };
             for &slot in &self.entries[usize::from(start)..usize::from(self.ends[bucket])] {

@@ -65,12 +65,11 @@ impl Ground {
     }
 }
 
-/// Gaps of a Shell sort (M. Ciura, 2001).
-const GAPS: [usize; 8] = [701, 301, 132, 57, 23, 10, 4, 1];
-
-/// Sorts a list in any order.
+/// Sorts a list in any order: a Shell sort, with gaps by G. Gonnet and R. Baeza-Yates (1991).
 pub(crate) fn sort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
-    for gap in GAPS {
+    let mut gap = list.len();
+    while gap > 1 {
+        gap = (5 * gap / 11).max(1);
         for place in gap..list.len() {
             insert(list, bodies, ground, place, gap);
         }

@@ -15,7 +15,7 @@ pub(crate) const NONE: u16 = u16::MAX;
 /// An update of the pool: pairs that nobody notes are dropped at its end.
 pub(crate) struct Update<'p, 'a, S: Scalar> {
     pool: &'p mut Pool<'a, S>,
-    /// First contact of each body's group, by slot.
+    /// First contact of each body's group, by slot; anything for bodies without one.
     groups: &'p mut [u16],
     /// Contacts that were there before.
     old: usize,
@@ -26,10 +26,7 @@ pub(crate) struct Update<'p, 'a, S: Scalar> {
 
 impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
     /// `scattered`: groups lie in another order than the bodies.
-    pub(crate) fn new(pool: &'p mut Pool<'a, S>, groups: &'p mut [u16], order: &[u16], scattered: bool) -> Self {
-        for &slot in order {
-            groups[usize::from(slot)] = NONE;
-        }
+    pub(crate) fn new(pool: &'p mut Pool<'a, S>, groups: &'p mut [u16], scattered: bool) -> Self {
         let mut previous = NONE;
         for (place, contact) in pool.all_mut().iter_mut().enumerate() {
             contact.flags.clear(Flags::KEPT);
@@ -105,13 +102,8 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
 
     /// Keeps up to `most` more of a body's contacts for which a condition holds; how many there were.
     fn keep(&mut self, a: u16, condition: impl Fn(&Contact<S>) -> bool, most: usize) -> usize {
-        let first = self.groups[usize::from(a)];
-        if first == NONE {
-            return 0;
-        }
-        let group = &mut self.pool.all_mut()[usize::from(first)..self.old];
         let mut kept = 0;
-        for contact in group.iter_mut().take_while(|contact| contact.a == a) {
+        for contact in self.group(a) {
             if kept < most && contact.has_parted() && condition(contact) {
                 contact.flags.set(Flags::KEPT);
                 kept += 1;
@@ -124,9 +116,15 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
     /// The contact between two bodies, if there was one.
     #[inline]
     fn find(&mut self, a: u16, b: u16) -> Option<&mut Contact<S>> {
+        self.group(a).find(|contact| contact.b == b)
+    }
+
+    /// The contacts that a body had.
+    #[inline]
+    fn group(&mut self, a: u16) -> impl Iterator<Item = &mut Contact<S>> {
         let first = usize::from(self.groups[usize::from(a)]);
-        let contacts = self.pool.all_mut().get_mut(first..self.old)?;
-        contacts.iter_mut().take_while(|contact| contact.a == a).find(|contact| contact.b == b)
+        let group = self.pool.all_mut().get_mut(first..self.old).unwrap_or_default();
+        group.iter_mut().take_while(move |contact| contact.a == a)
     }
 
     /// Drops what nobody noted, and brings the rest into groups. `places` is scratch space, one a body.
