@@ -192,6 +192,7 @@ pub(crate) fn define<S: Scalar>(
 /// Moves every contact into the group of its upper body, in place, and those that have parted behind them all; how many last (P.
 /// `McIlroy`, K. Bostic and M. `McIlroy`, "Engineering Radix Sort", 1993: each swap brings at least one to its group).
 fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [u16], next: &mut [u16]) -> usize {
+    let groups = &mut groups[..next.len()]; // both have an entry a body: one check of a slot is enough
     for &slot in order {
         next[usize::from(slot)] = 0;
     }

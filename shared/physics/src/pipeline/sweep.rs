@@ -74,7 +74,7 @@ pub(crate) struct Sweep<'a, S: Scalar> {
 }
 
 impl<'a, S: Scalar> Sweep<'a, S> {
-    /// Columns as wide as the mean body, and room for thrice its speed: the mean of some [`SAMPLE`] is as good as that of all.
+    /// Columns as wide as the mean body and what it moves, and room for thrice its speed: the mean of some [`SAMPLE`] is as good as that of all.
     pub(crate) fn new(links: &'a mut [u16], order: &[u16], bodies: &[Body<S>], ground: Ground) -> Self {
         let step = order.len().div_ceil(SAMPLE).max(1);
         let sample = || order.iter().step_by(step).map(|&slot| &bodies[usize::from(slot)]);
@@ -82,16 +82,16 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         let drift = S::mean_velocity(sample().map(|body| body.velocity), count).map(S::in_a_step);
         let zero = S::Real::ZERO;
         let mut sweep = Self { links, heads: [NONE; COLUMNS + 1], shift: 0, reach: zero, beyond: zero, drift, ground };
-        let skinned = |body: &Body<S>| body.half.x.greater(body.half.y) + S::real(px(SKIN));
-        let width: u32 = sample().map(|body| S::floor(skinned(body)) as u32).sum();
-        sweep.shift = (2 * width.div_ceil(count)).max(4).next_power_of_two().trailing_zeros();
+        let skinned = |body: &Body<S>| S::floor(body.half.x.greater(body.half.y) + S::real(px(SKIN))) as u32;
+        let width = (2 * sample().map(skinned).sum::<u32>().div_ceil(count)).max(4).next_power_of_two();
         let speed = |body: &Body<S>| {
             let beside = sweep.beside(body.velocity.map(S::in_a_step));
             beside.x.greater(beside.y)
         };
         let speed = S::mean_length(sample().map(speed), count);
+        sweep.shift = (width + 2 * S::floor(speed) as u32).next_power_of_two().trailing_zeros();
         // With room for twice the mean, so many are too fast to wait in a heap that falls that it costs a quarter more.
-        sweep.reach = S::real(px(1 << sweep.shift >> 1)) + speed + speed + speed;
+        sweep.reach = S::real(px((width / 2) as i16)) + speed + speed + speed;
         sweep
     }
 

@@ -33,12 +33,11 @@ impl TileMap<'_> {
         let pitch = columns.count();
         let (columns, rows) = (between(columns, centre.x, reach.x), between(rows, centre.y, reach.y));
         let mut bits = 0;
-        let mut row = rows.start * pitch;
+        let mut rest = self.bytes_from(rows.start * pitch + columns.start);
         for _ in rows {
-            for column in columns.clone() {
-                bits |= self.byte(row + column);
-            }
-            row += pitch;
+            let row = rest.get(..columns.len()).unwrap_or_default();
+            bits = row.iter().fold(bits, |bits, tile| bits | tile);
+            rest = rest.get(pitch as usize..).unwrap_or_default();
         }
         bits
     }

@@ -274,6 +274,12 @@ impl<'a> TileMap<'a> {
         self.tiles.get(place as usize).copied().unwrap_or(0)
     }
 
+    /// The bytes from a place in the map on.
+    #[inline]
+    pub(super) fn bytes_from(&self, place: u32) -> &[u8] {
+        self.tiles.get(place as usize..).unwrap_or_default()
+    }
+
     #[inline]
     pub(super) fn is_solid(&self, column: u32, row: u32) -> bool {
         is_solid(self.bits(column, row))
