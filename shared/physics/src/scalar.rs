@@ -214,10 +214,6 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn cut(rest: Self::Unit) -> i16;
     /// A motion of which so many parts of 32767 are cut, rounded towards 0.
     fn uncut(motion: Self::Speed, cut: i16) -> Self::Speed;
-    /// Mean of so many velocities, rounded down.
-    fn mean_velocity(velocities: impl Iterator<Item = Vec2<Self::Speed>>, count: u32) -> Vec2<Self::Speed>;
-    /// Mean of so many lengths of at most 127 px, rounded up to 1/256 px.
-    fn mean_length(lengths: impl Iterator<Item = Self::Real>, count: u32) -> Self::Real;
     /// A velocity with its magnitude held at `cap`, to 1e-7 of it.
     fn capped(velocity: Vec2<Self::Speed>, cap: Self::Speed) -> Vec2<Self::Speed>;
     /// A length in 1/4096 px, of at most 16 px.

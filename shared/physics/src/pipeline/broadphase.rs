@@ -264,7 +264,7 @@ fn note_fixed<S: Scalar, W: Switches>(
         if !grid.is_empty() {
             let reach = body.half + way;
             let bounds = Bounds { min: body.position - reach, max: body.position + reach };
-            grid.visit(&bounds, pairs.bodies, &mut |other| {
+            grid.visit_inline(&bounds, pairs.bodies, |other| {
                 // Whoever sleeps is found by rigid bodies; others have woken it if they move.
                 if is_rigid || pairs.bodies[usize::from(other)].status.is_static() {
                     pairs.note(slot, other, update);
@@ -386,9 +386,8 @@ fn note_tiles<S: Scalar, W: Switches>(
 #[cold]
 fn may_bear<S: Scalar>(upper: u16, lower: u16, bodies: &[Body<S>], ground: Ground) -> bool {
     let (a, b) = (&bodies[usize::from(upper)], &bodies[usize::from(lower)]);
-    let (offset, reach) = (b.position - a.position, a.half + b.half);
-    let gap = offset.map(Quantity::abs) - reach;
-    let speed = a.velocity.saturating_sub(b.velocity).map(|v| S::in_a_step(v).abs());
+    let gap = (b.position - a.position).map(sweep::magnitude) - a.half - b.half;
+    let speed = (a.velocity.map(S::in_a_step) - b.velocity.map(S::in_a_step)).map(sweep::magnitude);
     let margin = S::real(ratio(1, 4)) + speed.x.greater(speed.y);
     let is_firm = !a.status.is_rigid() || !b.status.is_rigid();
     let (aside, away) = if ground.is_horizontal() { (gap.y, gap.x) } else { (gap.x, gap.y) };

@@ -8,11 +8,10 @@ use crate::vec2::vec2;
 /// Cells along each side of the torus.
 const SIDE: i32 = 16;
 const BUCKETS: usize = (SIDE * SIDE) as usize;
-/// Up to so many bodies, cells grow until none of them share a bucket: a room's walls are then far from its middle.
-const FEW: usize = 128;
 /// Shift of whole px that puts every coordinate that a body can have at or above 0.
 const ORIGIN: i32 = 1 << 15;
-/// Cells start at 16 px, and grow until all entries fit. At `COARSEST` the whole world is one cell.
+/// Cells of 16 px at least, so large that all entries fit and none share a bucket: a room's walls are then far from its middle. At
+/// `COARSEST` the whole world is one cell.
 const FINEST: u32 = 4;
 const COARSEST: u32 = 16;
 
@@ -83,27 +82,12 @@ fn bucket(x: i32, y: i32) -> usize {
     ((y & (SIDE - 1)) * SIDE + (x & (SIDE - 1))) as usize
 }
 
-/// The finest cells for so many bodies.
-fn finest<S: Scalar>(statics: &[u16], bodies: &[Body<S>]) -> u32 {
-    if statics.len() > FEW {
-        return FINEST;
+/// Calls a function for every bucket of every body.
+#[inline(never)]
+fn each_entry<S: Scalar>(statics: &[u16], bodies: &[Body<S>], shift: u32, visit: &mut dyn FnMut(u16, usize)) {
+    for &slot in statics {
+        Cells::under(&bodies[usize::from(slot)], shift).each_bucket(|bucket| visit(slot, bucket));
     }
-    let all = statics.iter().map(|&slot| Cells::under(&bodies[usize::from(slot)], 0)).reduce(|a, b| Cells {
-        left: a.left.min(b.left),
-        top: a.top.min(b.top),
-        right: a.right.max(b.right),
-        bottom: a.bottom.max(b.bottom),
-    });
-    let Some(all) = all else {
-        return FINEST;
-    };
-    let mut shift = FINEST;
-    while shift < COARSEST
-        && ((all.right >> shift) - (all.left >> shift)).max((all.bottom >> shift) - (all.top >> shift)) >= SIDE
-    {
-        shift += 1;
-    }
-    shift
 }
 
 impl<'a> Grid<'a> {
@@ -122,13 +106,19 @@ impl<'a> Grid<'a> {
     /// Files the bodies in the finest cells that fit.
     #[inline(never)]
     pub(crate) fn rebuild<S: Scalar>(&mut self, statics: &[u16], bodies: &[Body<S>]) {
+        let (mut min, mut max) = (i32::MAX, i32::MIN);
+        for &slot in statics {
+            let cells = Cells::under(&bodies[usize::from(slot)], 0);
+            (min, max) = (min.min(cells.left).min(cells.top), max.max(cells.right).max(cells.bottom));
+        }
         let mut counts = [0u32; BUCKETS];
-        for shift in finest(statics, bodies)..=COARSEST {
+        for shift in FINEST..=COARSEST {
             self.shift = shift;
-            counts = [0; BUCKETS];
-            for &slot in statics {
-                Cells::under(&bodies[usize::from(slot)], shift).each_bucket(|bucket| counts[bucket] += 1);
+            if (max >> shift).saturating_sub(min >> shift) >= SIDE {
+                continue;
             }
+            counts = [0; BUCKETS];
+            each_entry(statics, bodies, shift, &mut |_, bucket| counts[bucket] += 1);
             if counts.iter().sum::<u32>() as usize <= self.entries.len() {
                 break;
             }
@@ -140,13 +130,12 @@ impl<'a> Grid<'a> {
             total += count as u16;
             self.taken[bucket / SIDE as usize] |= u16::from(count > 0) << (bucket % SIDE as usize);
         }
-        for &slot in statics {
-            Cells::under(&bodies[usize::from(slot)], self.shift).each_bucket(|bucket| {
-                let end = &mut self.ends[bucket];
-                self.entries[usize::from(*end)] = slot;
-                *end += 1;
-            });
-        }
+        let Self { entries, ends, shift, .. } = self;
+        each_entry(statics, bodies, *shift, &mut |slot, bucket| {
+            let end = &mut ends[bucket];
+            entries[usize::from(*end)] = slot;
+            *end += 1;
+        });
     }
 
     /// Whether there are no static bodies.
@@ -156,7 +145,14 @@ impl<'a> Grid<'a> {
     }
 
     /// Notes all static bodies whose bounding boxes touch these bounds, each once.
-    pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], note: &mut impl FnMut(u16)) {
+    #[inline(never)]
+    pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], note: &mut dyn FnMut(u16)) {
+        self.visit_inline(bounds, bodies, note);
+    }
+
+    /// The same for the search, which asks for every body.
+    #[inline]
+    pub(crate) fn visit_inline<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], mut note: impl FnMut(u16)) {
         let cells = Cells::of(bounds, self.shift);
         if !cells.meet(&self.taken) {
             return;

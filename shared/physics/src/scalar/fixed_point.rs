@@ -321,17 +321,6 @@ impl Scalar for Fixed {
         let rest = i64::from(i16::MAX) - i64::from(cut);
         I8F24::from_bits((i64::from(motion.to_bits()) * rest / i64::from(i16::MAX)) as i32)
     }
-    fn mean_velocity(velocities: impl Iterator<Item = Vec2<I8F24>>, count: u32) -> Vec2<I8F24> {
-        // In 1/256 px, sums of 65 536 fit.
-        let sum =
-            velocities.fold((0i32, 0i32), |sum, v| (sum.0 + (v.x.to_bits() >> 16), sum.1 + (v.y.to_bits() >> 16)));
-        let mean = |sum: i32| I8F24::from_bits(sum.div_euclid(count as i32) << 16);
-        vec2(mean(sum.0), mean(sum.1))
-    }
-    fn mean_length(lengths: impl Iterator<Item = I16F16>, count: u32) -> I16F16 {
-        let sum: u32 = lengths.map(|length| (length.to_bits() >> 8) as u32 + 1).sum();
-        I16F16::from_bits((sum.div_ceil(count) << 8) as i32)
-    }
     fn capped(velocity: Vec2<I8F24>, cap: I8F24) -> Vec2<I8F24> {
         let Some((direction, speed)) = Self::direction(velocity.map(|v| I16F16::from_bits(v.to_bits() >> 1))) else {
             return velocity;

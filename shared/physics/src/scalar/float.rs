@@ -177,12 +177,6 @@ macro_rules! float_scalar {
             fn uncut(motion: $float, cut: i16) -> $float {
                 motion * ((i16::MAX - cut) as $float / i16::MAX as $float)
             }
-            fn mean_velocity(velocities: impl Iterator<Item = Vec2<$float>>, count: u32) -> Vec2<$float> {
-                velocities.fold(Vec2::default(), |sum, v| sum + v).map(|sum| sum / count as $float)
-            }
-            fn mean_length(lengths: impl Iterator<Item = $float>, count: u32) -> $float {
-                lengths.fold(0.0, |sum, length| sum + length) / count as $float
-            }
             fn capped(velocity: Vec2<$float>, cap: $float) -> Vec2<$float> {
                 let speed = $sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
                 if speed <= cap { velocity } else { velocity.map(|v| v / speed * cap) }
