@@ -80,8 +80,11 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
     /// Makes room for so many contacts of a body with the tile map.
     pub(crate) fn note_terrain(&mut self, a: u16, terrain: u16, count: usize, profiles: &[Profile<S>]) {
         let blocking = |contact: &Contact<S>| contact.b == terrain && !contact.flags.has(Flags::SENSOR);
-        // What bears the body stays, and what else there is room for.
-        let mut kept = self.keep(a, |contact| blocking(contact) && terrain::is_in_use(contact), count);
+        let mut kept = 0;
+        if self.group(a).filter(|contact| blocking(contact)).count() > count {
+            // What bears the body stays, and what else there is room for.
+            kept = self.keep(a, |contact| blocking(contact) && terrain::is_in_use(contact), count);
+        }
         kept += self.keep(a, blocking, count - kept);
         for _ in kept..count {
             self.pool.push(terrain::found(a, terrain, None, profiles));
@@ -146,9 +149,7 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
         if self.regroup {
             let contacts = self.pool.all_mut();
             let kept = regroup(contacts, order, self.groups, places);
-            for group in contacts[..kept].chunk_by_mut(|one, next| one.a == next.a) {
-                sort_group(group, bodies, ground);
-            }
+            sort_groups(&mut contacts[..kept], bodies, ground);
             self.pool.set_aside_from(kept, tell_ends);
         } else if have_parted {
             self.pool.set_aside(tell_ends);
@@ -209,11 +210,13 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
     let mut parted = total;
     for place in 0..total {
         let contact = &contacts[usize::from(place)];
-        let group = usize::from(contact.a);
-        if !contact.has_parted() && (groups[group]..=next[group]).contains(&place) {
-            // It belongs here, and may be the first to have been looked at.
-            next[group] += u16::from(place == next[group]);
-            continue;
+        if !contact.has_parted() {
+            let (start, next) = (groups[usize::from(contact.a)], &mut next[usize::from(contact.a)]);
+            if (start..=*next).contains(&place) {
+                // It belongs here, and may be the first to have been looked at.
+                *next += u16::from(place == *next);
+                continue;
+            }
         }
         // Lifted out, a contact takes the place of another until one comes that belongs here.
         let mut held = *contact;
@@ -231,12 +234,14 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
     usize::from(total)
 }
 
-/// Sorts a body's contacts by the other body, in the order of bodies.
-fn sort_group<S: Scalar>(group: &mut [Contact<S>], bodies: &[Body<S>], ground: Ground) {
-    for start in 1..group.len() {
+/// Sorts each body's contacts by the other body, in the order of bodies.
+fn sort_groups<S: Scalar>(contacts: &mut [Contact<S>], bodies: &[Body<S>], ground: Ground) {
+    for start in 1..contacts.len() {
+        let follows =
+            |pair: &[Contact<S>]| pair[0].a == pair[1].a && order::precedes(pair[1].b, pair[0].b, bodies, ground);
         let mut place = start;
-        while place > 0 && order::precedes(group[place].b, group[place - 1].b, bodies, ground) {
-            group.swap(place, place - 1);
+        while place > 0 && follows(&contacts[place - 1..=place]) {
+            contacts.swap(place, place - 1);
             place -= 1;
         }
     }

@@ -111,7 +111,7 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         let beside = self.beside(motion);
         // Of two that move alike, one may be stopped: then the other's own speed counts.
         let farthest = vec2(beside.x.greater(magnitude(motion.x)), beside.y.greater(magnitude(motion.y)));
-        let margin = near.margin + self.reach;
+        let margin = near.margin + self.reach + S::real(ratio(1, 16)); // and some for rounding
         let reach = near.half + farthest + vec2(margin, margin);
         // Where the centres lie of those whom it may meet: along gravity, and across it.
         let mut along = Span::around(ground.upright(near.centre), ground.upright(reach));
@@ -143,10 +143,9 @@ impl<'a, S: Scalar> Sweep<'a, S> {
             }
             column += 1;
         }
-        // With some room for rounding.
-        let extent = (near.half.x + beside.x).greater(near.half.y + beside.y) + S::real(ratio(1, 16));
-        let list = if extent > self.reach {
-            self.beyond = self.beyond.greater(extent - self.reach);
+        let reach = (near.half.x + beside.x).greater(near.half.y + beside.y);
+        let list = if reach > self.reach {
+            self.beyond = self.beyond.greater(reach - self.reach);
             COLUMNS
         } else {
             column_at(ground.across(near.centre)) as usize % COLUMNS

@@ -23,7 +23,7 @@ const SIDES: [Side; 4] = [Side::Left, Side::Right, Side::Top, Side::Bottom];
 
 impl TileMap<'_> {
     /// The bits of all tiles that something around a point overlaps or touches, and perhaps of some less than 2 px further away.
-    #[inline(never)]
+    #[inline]
     pub(crate) fn bits_around<S: Scalar>(&self, centre: Vec2<S::Real>, reach: Vec2<S::Real>) -> u8 {
         let between = |axis: &Axis, centre: S::Real, reach: S::Real| {
             let (centre, reach) = (S::floor(centre), S::floor(reach).saturating_add(1));

@@ -36,8 +36,13 @@ impl TileMap<'_> {
     /// is stopped by it.
     #[inline]
     pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, mut visit: impl FnMut(TileContact<S>)) {
+        self.visit_contacts(outline, margin, &mut visit);
+    }
+
+    #[inline(never)]
+    fn visit_contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, visit: &mut dyn FnMut(TileContact<S>)) {
         let around = self.bits_around::<S>(outline.centre, outline.half.map(|half| half.saturating_add(margin)));
-        self.contacts_of(outline, margin, around, &mut visit);
+        self.contacts_of(outline, margin, around, visit);
     }
 
     /// The same, where the bits of the tiles around are known.
