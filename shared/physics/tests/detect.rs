@@ -138,6 +138,45 @@ proptest! {
     }
 
     #[test]
+    fn pairs_are_those_that_may_meet_in_the_step(
+        defs in prop_oneof![prop::collection::vec(body(60, 8), 2..40), prop::collection::vec(body(300, 40), 2..60)],
+        drift in (-1500i16..1500, -1500i16..1500),
+        speeds in prop::collection::vec((0u32..8, -6000i32..6000, -6000i32..6000), 60),
+    ) {
+        let mut storage = Box::new(Storage::<Fixed, 64, 2048>::new());
+        let mut world = storage.world();
+        let mut bodies = Vec::new();
+        for (def, (slower, x, y)) in defs.iter().filter(|def| def.kind != Kind::Static).zip(speeds) {
+            let velocity = vec2(px(drift.0 + (x >> slower) as i16), px(drift.1 + (y >> slower) as i16));
+            let def = BodyDef { velocity, ..*def };
+            world.spawn(&def).unwrap();
+            let per_step = [velocity.x, velocity.y].map(|v| v.to_num::<f64>() / 60.0);
+            bodies.push((Seen::of(&def), per_step));
+        }
+        Stage::Detect.run(&mut world, Effects::NONE);
+        Stage::Events.run(&mut world, Effects::NONE); // counts them
+        // From the lowest centre up, equal ones from the left: the upper one of two looks.
+        bodies.sort_by(|(a, _), (b, _)| {
+            b.centre[1].total_cmp(&a.centre[1]).then(a.centre[0].total_cmp(&b.centre[0]))
+        });
+        let fastest = bodies.iter().flat_map(|(_, speed)| *speed).fold(0.0, |most: f64, v| most.max(v.abs()));
+        let margin = if fastest < 1.0 { 2.0 } else { 1.0 };
+        let count = |leeway: f64| {
+            let may_meet = |upper: usize, lower: usize| {
+                let ((a, va), (b, vb)) = (&bodies[upper], &bodies[lower]);
+                [0, 1].iter().all(|&axis| {
+                    let space = (a.centre[axis] - b.centre[axis]).abs() - a.half[axis] - b.half[axis];
+                    space <= margin + leeway + (va[axis] - vb[axis]).abs().max(va[axis].abs())
+                })
+            };
+            (0..bodies.len()).map(|upper| (0..upper).filter(|&lower| may_meet(upper, lower)).count()).sum::<usize>()
+        };
+        let found = usize::from(world.statistics().contacts_peak);
+        // As good as exact: what lies between depends on rounding alone.
+        prop_assert!((count(-1e-3)..=count(1e-3)).contains(&found), "{found} of {}..={}", count(-1e-3), count(1e-3));
+    }
+
+    #[test]
     fn removed_and_added_bodies_are_noticed(defs in prop::collection::vec(body(30, 8), 4..40), changes in prop::collection::vec((any::<usize>(), body(30, 8)), 1..20)) {
         let mut storage = Box::new(Storage::<Fixed, 64, 2048>::new());
         let mut world = storage.world();

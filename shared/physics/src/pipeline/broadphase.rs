@@ -233,14 +233,13 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let (dynamics, ground) = (&order[..*dynamic_count], *ground);
     let mut update = Update::new(pool, groups, core::mem::take(scattered));
     let pairs = Pairs { bodies, profiles, ground, switches, wanted, changed };
-    let closing = S::in_a_step(fastest.saturating_add(*fastest));
     // Until pairs are next looked for, either body may move by a skin. Where somebody is fast, that is in the next step.
     let margin = S::real(px(if *fastest < skin::<S>() { 2 * SKIN } else { SKIN }));
     let map = (switches.on(Effects::TILES) && terrain != NONE).then_some((terrain, &*tiles));
     if map.is_some() || !grid.is_empty() {
         note_fixed(dynamics, margin, grid, map, &pairs, &mut update);
     }
-    note_moving(dynamics, margin, closing, links, &pairs, &mut update);
+    note_moving(dynamics, margin, links, &pairs, &mut update);
     update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
 }
 
@@ -287,7 +286,6 @@ fn note_fixed<S: Scalar, W: Switches>(
 fn note_moving<S: Scalar, W: Switches>(
     dynamics: &[u16],
     margin: S::Real,
-    closing: S::Real,
     links: &mut [u16],
     pairs: &Pairs<'_, S, W>,
     update: &mut Update<'_, '_, S>,
@@ -297,7 +295,7 @@ fn note_moving<S: Scalar, W: Switches>(
     for &slot in dynamics {
         let body = &bodies[usize::from(slot)];
         if body.status.collides() {
-            sweep.visit(slot, &Near::new(body, margin, closing), bodies, |other| {
+            sweep.visit(slot, &Near::new(body, margin), bodies, |other| {
                 if !(pairs.are_known_of(body) && update.keep_pair(slot, other)) {
                     pairs.note(slot, other, update);
                 }

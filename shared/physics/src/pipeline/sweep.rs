@@ -8,7 +8,7 @@ use super::broadphase::SKIN;
 use super::order::Ground;
 use super::pairs::NONE;
 use crate::body::Body;
-use crate::scalar::{Quantity, Scalar, px, ratio};
+use crate::scalar::{EXTENT_LIMIT, Quantity, Scalar, px, ratio};
 use crate::vec2::{Vec2, vec2};
 
 const COLUMNS: usize = 64;
@@ -21,26 +21,25 @@ pub(crate) struct Near<S: Scalar> {
     /// Half extents.
     half: Vec2<S::Real>,
     margin: S::Real,
-    velocity: Vec2<S::Speed>,
-    /// How far any two bodies come together in a step, at most.
-    closing: S::Real,
+    /// What its velocity makes in a step.
+    motion: Vec2<S::Real>,
 }
 
 impl<S: Scalar> Near<S> {
     #[inline]
-    pub(crate) fn new(body: &Body<S>, margin: S::Real, closing: S::Real) -> Self {
-        Self { centre: body.position, half: body.half, margin, velocity: body.velocity, closing }
+    pub(crate) fn new(body: &Body<S>, margin: S::Real) -> Self {
+        Self { centre: body.position, half: body.half, margin, motion: body.velocity.map(S::in_a_step) }
     }
 
     #[inline]
     fn may_meet(&self, other: &Body<S>) -> bool {
-        // Most are too far aside: that is asked first, and speeds only where they matter.
-        let apart = |offset: S::Real, reach: S::Real, own: S::Speed, other: S::Speed| {
+        // Speeds are asked only where they matter. Of two that move alike, one may be stopped: then the own speed counts.
+        let apart = |offset: S::Real, reach: S::Real, own: S::Real, other: S::Speed| {
             let space = magnitude(offset) - reach - self.margin;
-            space > S::Real::ZERO && (space > self.closing || space > approach::<S>(own, other))
+            space > S::Real::ZERO && space > magnitude(S::in_a_step(other) - own).greater(magnitude(own))
         };
-        !apart(other.position.x - self.centre.x, self.half.x + other.half.x, self.velocity.x, other.velocity.x)
-            && !apart(other.position.y - self.centre.y, self.half.y + other.half.y, self.velocity.y, other.velocity.y)
+        !apart(other.position.x - self.centre.x, self.half.x + other.half.x, self.motion.x, other.velocity.x)
+            && !apart(other.position.y - self.centre.y, self.half.y + other.half.y, self.motion.y, other.velocity.y)
     }
 }
 
@@ -48,13 +47,6 @@ impl<S: Scalar> Near<S> {
 #[inline]
 pub(crate) fn magnitude<T: Quantity>(value: T) -> T {
     value.greater(-value)
-}
-
-/// How far two bodies come together along an axis in a step.
-#[inline(never)]
-fn approach<S: Scalar>(own: S::Speed, other: S::Speed) -> S::Real {
-    // The other may be stopped in this step: then the own speed counts.
-    S::in_a_step(other.saturating_sub(own).abs().greater(own.abs()))
 }
 
 /// The bodies that the sweep has passed.
@@ -90,7 +82,8 @@ impl<'a, S: Scalar> Sweep<'a, S> {
             let beside = sweep.beside(body.velocity.map(S::in_a_step));
             speed = speed + share(beside.x.greater(beside.y));
         }
-        let width = (2 * width).div_ceil(SAMPLE as u32).max(4).next_power_of_two();
+        // No wider than leaves sums of coordinates and reaches in the format; what is larger is wide.
+        let width = (2 * width).div_ceil(SAMPLE as u32).clamp(4, EXTENT_LIMIT as u32).next_power_of_two();
         sweep.shift = (width + 2 * S::floor(speed) as u32).next_power_of_two().trailing_zeros();
         // With room for twice the mean, so many are too fast to wait in a heap that falls that it costs a quarter more.
         sweep.reach = S::real(px((width / 2) as i16)) + speed + speed + speed;
@@ -107,9 +100,8 @@ impl<'a, S: Scalar> Sweep<'a, S> {
     #[inline]
     pub(crate) fn visit(&mut self, slot: u16, near: &Near<S>, bodies: &[Body<S>], mut meet: impl FnMut(u16)) {
         let ground = self.ground;
-        let motion = near.velocity.map(S::in_a_step);
+        let motion = near.motion;
         let beside = self.beside(motion);
-        // Of two that move alike, one may be stopped: then the other's own speed counts.
         let farthest = vec2(beside.x.greater(magnitude(motion.x)), beside.y.greater(magnitude(motion.y)));
         let margin = near.margin + self.reach + S::real(ratio(1, 16)); // and some for rounding
         let reach = near.half + farthest + vec2(margin, margin);
