@@ -270,7 +270,10 @@ fn note_fixed<S: Scalar, W: Switches>(
                 }
             });
         }
-        if let Some((map, tiles)) = map {
+        // Asked here as well, so that what isn't called for isn't there.
+        if pairs.switches.on(Effects::TILES)
+            && let Some((map, tiles)) = map
+        {
             let reach = way.x.greater(way.y);
             let around = tiles.bits_around::<S>(body.position, body.half + vec2(reach, reach));
             // Most are near nothing.
