@@ -106,15 +106,17 @@ impl<'a> Grid<'a> {
     /// Files the bodies in the finest cells that fit.
     #[inline(never)]
     pub(crate) fn rebuild<S: Scalar>(&mut self, statics: &[u16], bodies: &[Body<S>]) {
-        let (mut min, mut max) = (i32::MAX, i32::MIN);
+        let mut all = Cells { left: i32::MAX, top: i32::MAX, right: i32::MIN, bottom: i32::MIN };
         for &slot in statics {
-            let cells = Cells::under(&bodies[usize::from(slot)], 0);
-            (min, max) = (min.min(cells.left).min(cells.top), max.max(cells.right).max(cells.bottom));
+            let Cells { left, top, right, bottom } = Cells::under(&bodies[usize::from(slot)], 0);
+            (all.left, all.top) = (all.left.min(left), all.top.min(top));
+            (all.right, all.bottom) = (all.right.max(right), all.bottom.max(bottom));
         }
         let mut counts = [0u32; BUCKETS];
         for shift in FINEST..=COARSEST {
             self.shift = shift;
-            if (max >> shift).saturating_sub(min >> shift) >= SIDE {
+            let beyond = |first: i32, last: i32| (last >> shift).saturating_sub(first >> shift) >= SIDE;
+            if beyond(all.left, all.right) || beyond(all.top, all.bottom) {
                 continue;
             }
             counts = [0; BUCKETS];
