@@ -362,7 +362,11 @@ impl Marks {
     }
     #[inline]
     pub(crate) fn clear(&mut self, marks: Self) {
-        self.0 &= !marks.0;
+        *self = self.without(marks);
+    }
+    #[inline]
+    pub(crate) fn without(self, marks: Self) -> Self {
+        Self(self.0 & !marks.0)
     }
 }
 

@@ -85,11 +85,12 @@ pub(crate) fn hold_kinematic<S: Scalar>(world: &mut World<'_, S>, switches: impl
 /// Moves every body by its velocity, which is first held within the speed limit.
 pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let averaged = world.level(switches) != Level::Flat;
-    let mut fastest = S::Speed::ZERO;
+    let (mut fastest, mut strays) = (S::Speed::ZERO, false);
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
         let before = world.before[usize::from(slot)];
-        body.marks.clear(Marks::MOVED.or(Marks::JOLTED).or(Marks::STOOD));
+        let marks = body.marks.without(Marks::MOVED.or(Marks::JOLTED).or(Marks::STOOD));
+        body.marks = marks;
         if body.velocity == Vec2::default() && before == Vec2::default() && body.push == 0 {
             continue;
         }
@@ -103,16 +104,19 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
             body.push = 0;
         }
         if body.advance(motion) {
-            world.strays |= body.is_beyond_limit();
+            strays |= body.is_beyond_limit();
             // What creeps is looked at once it has come somewhere.
             let crept = &mut world.crept[usize::from(slot)];
-            *crept = crept.saturating_add(S::creep(motion));
-            if *crept >= CREEP {
+            let far = S::creep(motion);
+            if far >= CREEP || crept.saturating_add(far) >= CREEP {
                 *crept = 0;
-                body.marks.set(Marks::MOVED);
+                body.marks = marks.or(Marks::MOVED);
+            } else {
+                *crept = crept.saturating_add(far);
             }
         }
     }
+    world.strays |= strays;
     // Nobody has moved faster than at the start or at the end of the step.
     world.travel = world.travel.saturating_add(fastest.greater(world.fastest));
     world.fastest = fastest;
