@@ -34,34 +34,33 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
     // Where nobody was near the cap when the step began, only forces and bounces may bring somebody there.
     let pull = gravity.x.abs().saturating_add(gravity.y.abs());
     let near_cap = bounced || scaled || world.fastest.saturating_add(pull) > below_cap;
-    for &slot in world.layers.dynamics() {
-        let body = &mut world.bodies[usize::from(slot)];
-        let before = body.velocity;
-        let mut velocity = before;
+    let sideways = gravity.x != S::Speed::ZERO; // most gravity pulls along one axis
+    let World { bodies, before, profiles, layers, .. } = world;
+    for &slot in layers.dynamics() {
+        let slot = usize::from(slot);
+        let body = &mut bodies[slot];
+        let before = &mut before[slot];
+        let mut velocity = body.velocity;
         let mut may_exceed = near_cap;
         if body.marks.has(Marks::FORCED) {
             may_exceed = true;
             // What the game's forces add lies where the velocity goes now.
-            velocity = velocity.saturating_add(world.before[usize::from(slot)]);
+            velocity = velocity.saturating_add(*before);
         }
-        world.before[usize::from(slot)] = before;
-        let stood = body.marks.has(Marks::GROUNDED);
-        body.marks.clear(Marks::HELD_X.or(Marks::HELD_Y).or(Marks::GROUNDED).or(Marks::FORCED).or(Marks::FAST));
-        if stood {
-            body.marks.set(Marks::STOOD);
-        }
+        *before = body.velocity;
+        let passing = Marks::HELD_X.or(Marks::HELD_Y).or(Marks::GROUNDED).or(Marks::FORCED).or(Marks::FAST);
+        let stood = if body.marks.has(Marks::GROUNDED) { Marks::STOOD } else { Marks::default() };
+        body.marks = body.marks.without(passing).or(stood);
         body.push = 0;
         if !body.status.is_rigid() {
             continue;
         }
-        let scale = if scaled { world.profiles[usize::from(slot)].gravity_scale } else { S::ONE };
-        let pull = |g| if scale == S::ONE { g } else { S::speed_scaled(g, scale) };
-        // Most gravity pulls along one axis.
-        if gravity.x != S::Speed::ZERO {
-            velocity.x = velocity.x.saturating_add(pull(gravity.x));
-        }
-        if gravity.y != S::Speed::ZERO {
-            velocity.y = velocity.y.saturating_add(pull(gravity.y));
+        if scaled && profiles[slot].gravity_scale != S::ONE {
+            velocity = velocity.saturating_add(weighted::<S>(gravity, profiles[slot].gravity_scale));
+        } else if sideways {
+            velocity = velocity.saturating_add(gravity);
+        } else {
+            velocity.y = velocity.y.saturating_add(gravity.y);
         }
         if switches.on(Effects::DAMPING) {
             velocity = velocity.map(|v| S::speed_scaled(v, damping));
@@ -72,6 +71,13 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
         }
         body.velocity = velocity;
     }
+}
+
+/// What gravity adds to a velocity in a step, scaled.
+#[cold]
+#[inline(never)]
+fn weighted<S: Scalar>(gravity: Vec2<S::Speed>, scale: S::Real) -> Vec2<S::Speed> {
+    gravity.map(|g| S::speed_scaled(g, scale))
 }
 
 /// Stops the kinematic bodies, where they are not called for: what isn't moved may as well be fixed.
