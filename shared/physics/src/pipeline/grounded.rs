@@ -51,24 +51,22 @@ fn for_each_live<S: Scalar>(
     mut visit: impl FnMut(&mut Contact<S>, &mut Vec2<S::Speed>, &mut Vec2<S::Speed>),
 ) {
     let World { pool, bodies, .. } = world;
-    let mut a = Vec2::default();
-    let mut upper = NONE;
-    for contact in pool.all_mut() {
+    let contacts = pool.all_mut();
+    let Some(first) = contacts.first() else { return };
+    let mut upper = first.a;
+    let mut a = bodies[usize::from(upper)].velocity;
+    for contact in contacts {
         if contact.flags.has(Flags::FAR) {
             continue;
         }
         if contact.a != upper {
-            if upper != NONE {
-                bodies[usize::from(upper)].velocity = a;
-            }
+            bodies[usize::from(upper)].velocity = a;
             upper = contact.a;
             a = bodies[usize::from(upper)].velocity;
         }
         visit(contact, &mut a, &mut bodies[usize::from(contact.b)].velocity);
     }
-    if upper != NONE {
-        bodies[usize::from(upper)].velocity = a;
-    }
+    bodies[usize::from(upper)].velocity = a;
 }
 
 /// Applies the impulses of the last step, from the top down. Deeply pressed contacts start with half of theirs: after a crush,
