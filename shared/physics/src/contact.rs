@@ -163,6 +163,13 @@ impl<S: Scalar> Contact<S> {
         !switches.variety().contain(Variety::MASSES) || self.flags.has(Flags::EVEN)
     }
 
+    /// Whether the normal slopes and an impulse moves both bodies alike: most contacts between balls, known in one test.
+    #[inline]
+    pub(crate) fn is_plain(&self, switches: impl Switches) -> bool {
+        let kind = Flags::AXIS.or(Flags::IMMOVABLE).or(Flags::EVEN);
+        switches.variety().contain(Variety::CIRCLES) && self.flags.0 & kind.0 == Flags::EVEN.0
+    }
+
     /// Components of a vector along the normal (x) and the normal turned by a quarter (y).
     #[inline]
     pub(crate) fn in_frame(&self, v: Vec2<S::Speed>, switches: impl Switches) -> Vec2<S::Speed> {
