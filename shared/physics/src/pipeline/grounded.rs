@@ -18,7 +18,6 @@ use crate::effects::{Effects, Switches};
 use crate::pipeline::carry;
 use crate::pipeline::narrowphase::GRAZE;
 use crate::pipeline::order::Ground;
-use crate::pipeline::pairs::NONE;
 use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
@@ -317,9 +316,11 @@ fn shock<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let ground = world.layers.ground();
     let (zero, graze, adrift) = (S::Speed::ZERO, S::per_step(S::real(GRAZE)), S::per_step(S::real(ADRIFT)));
     let World { pool, bodies, .. } = world;
-    let mut upper = NONE;
-    let (mut a, mut marks) = (Vec2::default(), Marks::default());
-    for contact in pool.all() {
+    let contacts = pool.all();
+    let Some(first) = contacts.first() else { return };
+    let mut upper = first.a;
+    let (mut a, mut marks) = (bodies[usize::from(upper)].velocity, Marks::default());
+    for contact in contacts {
         if contact.flags.has(Flags::FAR) {
             continue;
         }
@@ -328,9 +329,7 @@ fn shock<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
             continue;
         }
         if contact.a != upper {
-            if upper != NONE {
-                settle(&mut bodies[usize::from(upper)], a, marks);
-            }
+            settle(&mut bodies[usize::from(upper)], a, marks);
             upper = contact.a;
             (a, marks) = (bodies[usize::from(upper)].velocity, Marks::default());
         }
@@ -375,9 +374,7 @@ fn shock<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
             marks.set(held.or(Marks::GROUNDED));
         }
     }
-    if upper != NONE {
-        settle(&mut bodies[usize::from(upper)], a, marks);
-    }
+    settle(&mut bodies[usize::from(upper)], a, marks);
 }
 
 #[inline]
