@@ -89,12 +89,30 @@ fn circles<S: Scalar>(contact: &mut Contact<S>, a: &Body<S>, b: &Body<S>, farthe
     let Some((normal, distance)) = S::direction(offset) else {
         return false;
     };
-    if let Some(manifold) = rounded(offset, touch, normal, distance - touch, || Approach::of(a, b)) {
-        write(contact, &manifold, ground);
+    let mut gap = distance - touch;
+    if gap > S::real(GRAZE) {
+        let Some(leeway) = between(a, b, normal, gap) else {
+            leave(contact);
+            return true;
+        };
+        gap = leeway;
+    }
+    if along::<S>(normal).is_some() {
+        write(contact, &Manifold { normal, axis: along::<S>(normal), gap }, ground);
     } else {
-        leave(contact);
+        contact.normal = normal;
+        contact.gap = S::per_step(gap);
+        contact.flags.forget_geometry();
+        contact.flags.set(bearing::<S>(normal, ground));
     }
     true
+}
+
+/// How far two circles may come along the normal in this step; none if they can't touch.
+#[cold]
+#[inline(never)]
+fn between<S: Scalar>(a: &Body<S>, b: &Body<S>, normal: Vec2<S::Unit>, gap: S::Real) -> Option<S::Real> {
+    nearing::<S>(b.position - a.position, a.half.x + b.half.x, normal, gap, &Approach::of(a, b))
 }
 
 /// Looks again at any contact; whether it is one with the corner of a static box.
@@ -172,12 +190,12 @@ fn refresh_terrain<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches)
 }
 
 /// Takes over how the bodies lie.
-#[inline]
+#[inline(never)]
 pub(crate) fn write<S: Scalar>(contact: &mut Contact<S>, manifold: &Manifold<S>, ground: Ground) {
     contact.normal = manifold.normal;
     contact.gap = S::per_step(manifold.gap);
     contact.flags.forget_geometry();
-    contact.flags.set(flags(manifold, ground));
+    contact.flags.set(manifold.axis.map_or_else(Flags::default, Flags::along).or(bearing::<S>(manifold.normal, ground)));
 }
 
 /// Notes that the bodies can't touch in this step.
@@ -189,16 +207,17 @@ pub(crate) fn leave<S: Scalar>(contact: &mut Contact<S>) {
     contact.impulse = Vec2::default();
 }
 
-fn flags<S: Scalar>(manifold: &Manifold<S>, ground: Ground) -> Flags {
-    let mut flags = manifold.axis.map_or_else(Flags::default, Flags::along);
-    let down = ground.depth(manifold.normal);
-    if down >= S::unit_ratio(1, 5) {
-        flags.set(Flags::CONNECTS);
-        if down >= S::unit_ratio(1, 2) {
-            flags.set(Flags::BEARS);
-        }
+/// Whether the second body bears the first, or connects it to the ground.
+#[inline]
+fn bearing<S: Scalar>(normal: Vec2<S::Unit>, ground: Ground) -> Flags {
+    let down = ground.depth(normal);
+    if down >= S::unit_ratio(1, 2) {
+        Flags::CONNECTS.or(Flags::BEARS)
+    } else if down >= S::unit_ratio(1, 5) {
+        Flags::CONNECTS
+    } else {
+        Flags::default()
     }
-    flags
 }
 
 /// How two bodies may come together in this step.
@@ -277,27 +296,24 @@ pub(crate) fn reach<S: Scalar>(closing: Vec2<S::Real>) -> S::Real {
     S::real(MARGIN) + closing.x.abs().greater(closing.y.abs())
 }
 
-/// A circle of radius `touch` and a point, with the gap along the line between them.
+/// How far a circle of radius `touch` may come along the normal to a point, at a gap of more than a graze; none if it can't touch
+/// in this step.
 #[inline]
-fn rounded<S: Scalar>(
+fn nearing<S: Scalar>(
     offset: Vec2<S::Real>,
     touch: S::Real,
     normal: Vec2<S::Unit>,
     gap: S::Real,
-    approach: impl FnOnce() -> Approach<S>,
-) -> Option<Manifold<S>> {
-    let mut gap = gap;
-    if gap > S::real(GRAZE) {
-        let Approach { closing, reach } = approach();
-        let limit = touch + reach;
-        // Along a diagonal, motion leads farther than along either axis: by less than a half of the longer.
-        let diagonal = reach + S::half(reach - S::real(MARGIN));
-        if gap > diagonal || !offset.x.is_within(limit) || !offset.y.is_within(limit) {
-            return None;
-        }
-        gap = leeway::<S>(offset, touch, closing, normal, gap);
+    approach: &Approach<S>,
+) -> Option<S::Real> {
+    let &Approach { closing, reach } = approach;
+    let limit = touch + reach;
+    // Along a diagonal, motion leads farther than along either axis: by less than a half of the longer.
+    let diagonal = reach + S::half(reach - S::real(MARGIN));
+    if gap > diagonal || !offset.x.is_within(limit) || !offset.y.is_within(limit) {
+        return None;
     }
-    Some(Manifold { normal, axis: along::<S>(normal), gap })
+    Some(leeway::<S>(offset, touch, closing, normal, gap))
 }
 
 /// The axis that a normal lies on.
@@ -435,5 +451,9 @@ fn circle_box<S: Scalar>(
     let end = vec2(end.x - end.x.held(half.x), end.y - end.y.held(half.y));
     let passes = !S::within(end, radius - S::real(GRAZE));
     let closing = if passes { closing } else { Vec2::default() };
-    rounded(closest, radius, normal, distance - radius, || Approach { closing, reach })
+    let mut gap = distance - radius;
+    if gap > S::real(GRAZE) {
+        gap = nearing::<S>(closest, radius, normal, gap, &Approach { closing, reach })?;
+    }
+    Some(Manifold { normal, axis: along::<S>(normal), gap })
 }

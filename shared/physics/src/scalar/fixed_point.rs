@@ -102,25 +102,32 @@ fn are_small<const BITS: u32>(x: i32, y: i32) -> bool {
     ((shifted(x) | shifted(y)) as u32) >> (BITS + 1) == 0
 }
 
-/// Leading zeros, of those an even number: by halves, for chips that have no instruction for it.
+/// Leading zeros of a word above 0, of those an even number: by halves, for chips that have no instruction for it.
 #[inline]
-fn even_leading_zeros(mut word: u32) -> u32 {
-    let mut zeros = 0;
-    for width in [16, 8, 4, 2] {
-        if word >> (32 - width) == 0 {
-            word <<= width;
-            zeros += width;
-        }
+fn even_leading_zeros(word: u32) -> u32 {
+    let in_byte = |zeros: u32| {
+        let byte = (word << zeros) >> 24;
+        zeros + if byte >= 1 << 4 { if byte >= 1 << 6 { 0 } else { 2 } } else if byte >= 1 << 2 { 4 } else { 6 }
+    };
+    if word >= 1 << 16 {
+        if word >= 1 << 24 { in_byte(0) } else { in_byte(8) }
+    } else if word >= 1 << 8 {
+        in_byte(16)
+    } else {
+        in_byte(24)
     }
-    zeros
 }
 
 /// A number above 0 as `t 4^(32 - up)`, with `t` in Q32, 1/4 <= t < 1.
-#[inline]
+#[inline(always)] // as for `direction`
 fn normalized(number: u64) -> (u32, u32) {
-    let high = (number >> 32) as u32;
-    let zeros = if high == 0 { 32 + even_leading_zeros(number as u32) } else { even_leading_zeros(high) };
-    (((number << zeros) >> 32) as u32, zeros / 2)
+    let (high, low) = ((number >> 32) as u32, number as u32);
+    if high == 0 {
+        let zeros = even_leading_zeros(low);
+        return (low << zeros, 16 + zeros / 2);
+    }
+    let zeros = even_leading_zeros(high);
+    (high << zeros | (low >> 1) >> (31 - zeros), zeros / 2)
 }
 
 impl Scalar for Fixed {
@@ -368,7 +375,7 @@ impl Scalar for Fixed {
         };
         let length = product_high(t, reciprocal); // sqrt(t) in Q30
         let length = if up > 2 {
-            ((length + (1 << (up - 3))) >> (up - 2)) as i32
+            (((length >> (up - 3)) + 1) >> 1) as i32
         } else {
             saturated(i64::from(length) << (2 - up))
         };
