@@ -38,7 +38,11 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
 #[inline(never)]
 fn pass<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) -> bool {
     let mut changed = false;
-    for_each_live(world, |contact, a, b| changed |= visit(contact, a, b, switches));
+    for_each_live(world, |contact, a, b| {
+        if visit(contact, a, b, switches) {
+            changed = true;
+        }
+    });
     changed
 }
 
