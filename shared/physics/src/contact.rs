@@ -139,6 +139,19 @@ impl<S: Scalar> Contact<S> {
         if self.flags.has(Flags::IMMOVABLE) { S::UNIT } else { self.share }
     }
 
+    /// What a change of relative velocity, or of a distance, does to `a` and to `b`: their shares, to nearest. Of equal masses equal
+    /// ones: nothing is lost to rounding.
+    #[inline(never)]
+    pub(crate) fn parts(&self, change: Vec2<S::Speed>) -> [Vec2<S::Speed>; 2] {
+        if self.flags.has(Flags::IMMOVABLE) {
+            [change, Vec2::default()]
+        } else if self.flags.has(Flags::EVEN) {
+            [change.map(S::even_part); 2]
+        } else {
+            [self.share, S::UNIT - self.share].map(|share| change.map(|speed| S::speed_times(speed, share)))
+        }
+    }
+
     /// The one of its bodies that isn't `slot`.
     #[inline]
     pub(crate) fn other(&self, slot: u16) -> u16 {

@@ -27,12 +27,18 @@ const ROUNDS: usize = 16;
 /// Tiles along which one sweep slides: a floor and a wall, before it stops at the next.
 const SURFACES: usize = 3;
 
+/// Whether motions may be cut short.
+#[inline]
+pub(crate) fn is_on<S: Scalar>(world: &World<'_, S>, switches: impl Switches) -> bool {
+    switches.on(Effects::CCD) || world.level(switches) == Level::Exact
+}
+
 /// Cuts the motions of fast bodies short; [`Body::push`] says by how much until they have moved.
 pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    let exact = world.level(switches) == Level::Exact;
-    if !switches.on(Effects::CCD) && !exact {
+    if !is_on(world, switches) {
         return;
     }
+    let exact = world.level(switches) == Level::Exact;
     if world.deep {
         hold_back(world, switches);
     }

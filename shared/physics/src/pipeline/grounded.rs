@@ -308,9 +308,8 @@ fn pushed_apart_widely<S: Scalar>(
     let tangent = vec2(-normal.y, normal.x);
     let change =
         normal.map(|n| S::speed_times(change.x, n)).saturating_add(tangent.map(|t| S::speed_times(change.y, t)));
-    let part = |share| change.map(|speed| S::speed_times(speed, share));
-    let a = a.saturating_sub(part(contact.own_share()));
-    if contact.flags.has(Flags::IMMOVABLE) { (a, b) } else { (a, b.saturating_add(part(S::UNIT - contact.share))) }
+    let [own, other] = contact.parts(change);
+    (a.saturating_sub(own), b.saturating_add(other))
 }
 
 /// From the ground up: whoever stands on firm ground stops at what it stands on. Notes on the way which bodies are held, and

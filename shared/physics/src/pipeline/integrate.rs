@@ -7,7 +7,7 @@
 use crate::body::{Body, Marks};
 use crate::config::Level;
 use crate::effects::{Effects, Switches};
-use crate::pipeline::bounce;
+use crate::pipeline::{bounce, ccd};
 use crate::scalar::{Quantity, Scalar};
 use crate::variety::Variety;
 use crate::vec2::Vec2;
@@ -91,13 +91,14 @@ pub(crate) fn hold_kinematic<S: Scalar>(world: &mut World<'_, S>, switches: impl
 /// Moves every body by its velocity, which is first held within the speed limit.
 pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let averaged = world.level(switches) != Level::Flat;
+    let cuts = ccd::is_on(world, switches);
     let (mut fastest, mut strays) = (S::Speed::ZERO, false);
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
         let before = world.before[usize::from(slot)];
         let marks = body.marks.without(Marks::MOVED.or(Marks::JOLTED).or(Marks::STOOD));
         body.marks = marks;
-        if body.velocity == Vec2::default() && before == Vec2::default() && body.push == 0 {
+        if body.velocity == Vec2::default() && before == Vec2::default() && !(cuts && body.push != 0) {
             continue;
         }
         if !body.velocity.x.is_within(fastest) || !body.velocity.y.is_within(fastest) {
@@ -105,7 +106,7 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
             fastest = larger(fastest, body.velocity);
         }
         let mut motion = motion(body, before, averaged);
-        if body.push != 0 {
+        if cuts && body.push != 0 {
             motion = motion.map(|v| S::uncut(v, body.push));
             body.push = 0;
         }

@@ -195,7 +195,9 @@ pub(crate) fn write<S: Scalar>(contact: &mut Contact<S>, manifold: &Manifold<S>,
     contact.normal = manifold.normal;
     contact.gap = S::per_step(manifold.gap);
     contact.flags.forget_geometry();
-    contact.flags.set(manifold.axis.map_or_else(Flags::default, Flags::along).or(bearing::<S>(manifold.normal, ground)));
+    contact
+        .flags
+        .set(manifold.axis.map_or_else(Flags::default, Flags::along).or(bearing::<S>(manifold.normal, ground)));
 }
 
 /// Notes that the bodies can't touch in this step.

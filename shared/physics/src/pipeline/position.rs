@@ -114,10 +114,10 @@ fn part<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Bod
         body.push = body.push.saturating_add(S::whole_pushes(ground.depth(motion)));
         body.marks.set(Marks::MOVED);
     };
-    shift(contact.a, -apart.map(|length| S::speed_times(length, contact.own_share())));
+    let [own, other] = contact.parts(apart);
+    shift(contact.a, -own);
     if !contact.flags.has(Flags::IMMOVABLE) {
-        let rest = S::UNIT - contact.share;
-        shift(contact.b, apart.map(|length| S::speed_times(length, rest)));
+        shift(contact.b, other);
     }
 }
 

@@ -37,7 +37,9 @@ fixed_quantity!(I16F16, I8F24, I2F30);
 /// `product / 2^SHIFT` to nearest, ties away from zero.
 #[inline]
 const fn rounded<const SHIFT: u32>(product: i64) -> i64 {
-    (product + (1 << (SHIFT - 1)) + (product >> 63)) >> SHIFT
+    // Half of the last place; below 0 a unit less, which is still one word.
+    let half = (1u32 << (SHIFT - 1)).wrapping_add((product >> 63) as u32);
+    (product + half as i64) >> SHIFT
 }
 
 /// `numerator / denominator` to nearest, ties away from zero; the denominator is positive.
@@ -49,13 +51,27 @@ const fn divided(numerator: i64, denominator: i64) -> i64 {
 /// Held at the end of the range, the same on both sides.
 #[inline]
 const fn saturated(value: i64) -> i32 {
-    if value > i32::MAX as i64 {
-        i32::MAX
-    } else if value < -(i32::MAX as i64) {
-        -i32::MAX
-    } else {
-        value as i32
-    }
+    let word = value as i32;
+    if word as i64 == value && word != i32::MIN { word } else { end_of_range(value < 0) }
+}
+
+#[cold]
+const fn end_of_range(below: bool) -> i32 {
+    if below { -i32::MAX } else { i32::MAX }
+}
+
+/// `a b / 2^SHIFT` to nearest, held at the end of the range. Out of line: inlined it would be most of what calls it, and what is
+/// called all the time takes shorter ways.
+#[inline(never)]
+fn scaled<const SHIFT: u32>(a: i32, b: i32) -> i32 {
+    saturated(rounded::<SHIFT>(product(a, b)))
+}
+
+/// `bits * 2^SHIFT / DIVISOR` to nearest for an odd divisor below 2^8, which leaves no ties: without a division of 64 bits.
+fn over<const SHIFT: u32, const DIVISOR: u32>(bits: i32) -> i32 {
+    let (whole, rest) = (bits.unsigned_abs() / DIVISOR, bits.unsigned_abs() % DIVISOR);
+    let magnitude = (whole << SHIFT) + ((rest << SHIFT) + DIVISOR / 2) / DIVISOR;
+    if bits < 0 { -(magnitude as i32) } else { magnitude as i32 }
 }
 
 #[inline]
@@ -107,7 +123,14 @@ fn are_small<const BITS: u32>(x: i32, y: i32) -> bool {
 fn even_leading_zeros(word: u32) -> u32 {
     let in_byte = |zeros: u32| {
         let byte = (word << zeros) >> 24;
-        zeros + if byte >= 1 << 4 { if byte >= 1 << 6 { 0 } else { 2 } } else if byte >= 1 << 2 { 4 } else { 6 }
+        zeros
+            + if byte >= 1 << 4 {
+                if byte >= 1 << 6 { 0 } else { 2 }
+            } else if byte >= 1 << 2 {
+                4
+            } else {
+                6
+            }
     };
     if word >= 1 << 16 {
         if word >= 1 << 24 { in_byte(0) } else { in_byte(8) }
@@ -150,8 +173,9 @@ impl Scalar for Fixed {
         true
     }
     fn speed(px_per_second: I16F16) -> I8F24 {
-        let bits = divided(i64::from(px_per_second.to_bits()) << 8, i64::from(STEP_HZ));
-        I8F24::from_bits(saturated(bits)).held(Self::FASTEST)
+        const FASTEST: i32 = (SPEED_LIMIT as i32 * STEP_HZ as i32) << 16;
+        const { assert!(STEP_HZ == 15 << 2) }; // 2^8 / 60 = 2^6 / 15
+        I8F24::from_bits(over::<6, 15>(px_per_second.to_bits().clamp(-FASTEST, FASTEST)))
     }
     fn px_per_second(speed: I8F24) -> I16F16 {
         I16F16::from_bits(saturated(rounded::<8>(i64::from(speed.to_bits()) * i64::from(STEP_HZ))))
@@ -160,8 +184,8 @@ impl Scalar for Fixed {
         I8F24::from_bits(bits as i32)
     }
     fn acceleration(px_per_second2: I16F16) -> I8F24 {
-        let bits = divided(i64::from(px_per_second2.to_bits()) << 8, i64::from(STEP_HZ * STEP_HZ));
-        I8F24::from_bits(bits as i32) // at most 2^31 * 2^8 / 3600
+        const { assert!(STEP_HZ * STEP_HZ == 225 << 4) }; // 2^8 / 3600 = 2^4 / 225
+        I8F24::from_bits(over::<4, 225>(px_per_second2.to_bits()))
     }
 
     #[inline]
@@ -176,7 +200,7 @@ impl Scalar for Fixed {
         let length = motion.x.to_bits().unsigned_abs() | motion.y.to_bits().unsigned_abs();
         (length >> 10).min(0x7fff) as u16 + 1
     }
-    #[inline]
+    #[inline(never)]
     fn speed_along(velocity: Vec2<I8F24>, direction: Vec2<I2F30>) -> I8F24 {
         let sum =
             product(velocity.x.to_bits(), direction.x.to_bits()) + product(velocity.y.to_bits(), direction.y.to_bits());
@@ -184,19 +208,19 @@ impl Scalar for Fixed {
     }
     #[inline]
     fn speed_times(speed: I8F24, factor: I2F30) -> I8F24 {
-        I8F24::from_bits(saturated(rounded::<30>(product(speed.to_bits(), factor.to_bits()))))
+        I8F24::from_bits(scaled::<30>(speed.to_bits(), factor.to_bits()))
     }
     #[inline]
     fn speed_scaled(speed: I8F24, factor: I16F16) -> I8F24 {
-        I8F24::from_bits(saturated(rounded::<16>(product(speed.to_bits(), factor.to_bits()))))
+        I8F24::from_bits(scaled::<16>(speed.to_bits(), factor.to_bits()))
     }
     #[inline]
     fn length_times(length: I16F16, factor: I2F30) -> I16F16 {
-        I16F16::from_bits(saturated(rounded::<30>(product(length.to_bits(), factor.to_bits()))))
+        I16F16::from_bits(scaled::<30>(length.to_bits(), factor.to_bits()))
     }
     #[inline]
     fn length_scaled(length: I16F16, factor: I16F16) -> I16F16 {
-        I16F16::from_bits(saturated(rounded::<16>(product(length.to_bits(), factor.to_bits()))))
+        I16F16::from_bits(scaled::<16>(length.to_bits(), factor.to_bits()))
     }
     fn mass_share(own: I16F16, other: I16F16) -> I2F30 {
         if own == other {
@@ -254,6 +278,11 @@ impl Scalar for Fixed {
     #[inline]
     fn half_speed(speed: I8F24) -> I8F24 {
         I8F24::from_bits(speed.to_bits() >> 1)
+    }
+    #[inline]
+    fn even_part(speed: I8F24) -> I8F24 {
+        let bits = speed.to_bits();
+        I8F24::from_bits((bits >> 1) + (bits & i32::from(bits > 0)))
     }
     #[inline]
     fn coulomb(normal: I8F24, friction: u16) -> I8F24 {
@@ -374,11 +403,8 @@ impl Scalar for Fixed {
             I2F30::from_bits(if side < 0 { -magnitude } else { magnitude })
         };
         let length = product_high(t, reciprocal); // sqrt(t) in Q30
-        let length = if up > 2 {
-            (((length >> (up - 3)) + 1) >> 1) as i32
-        } else {
-            saturated(i64::from(length) << (2 - up))
-        };
+        let length =
+            if up > 2 { (((length >> (up - 3)) + 1) >> 1) as i32 } else { saturated(i64::from(length) << (2 - up)) };
         Some((vec2(scaled(x), scaled(y)), I16F16::from_bits(length)))
     }
     #[inline]

@@ -128,6 +128,10 @@ macro_rules! float_scalar {
                 speed * 0.5
             }
             #[inline]
+            fn even_part(speed: $float) -> $float {
+                speed * 0.5
+            }
+            #[inline]
             fn coulomb(normal: $float, friction: u16) -> $float {
                 normal * (<$float>::from(friction) * (1.0 / 32_768.0))
             }
