@@ -28,23 +28,21 @@ pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed
     for pass in 0..PASSES {
         let World { pool, bodies, profiles, .. } = world;
         let mut bounced = false;
-        let mut visit = |contact: &mut Contact<S>| {
+        let contacts = pool.all_mut();
+        let (count, forth) = (contacts.len(), pass % 2 == 0);
+        for place in 0..count {
+            let contact = &mut contacts[if forth { place } else { count - 1 - place }];
             if !contact.flags.has(Flags::BOUNCY) || contact.flags.has(Flags::FAR) {
-                return;
+                continue;
             }
             let jolted = bodies[usize::from(contact.a)].marks.or(bodies[usize::from(contact.b)].marks);
             if pass > 0 && !jolted.has(Marks::JOLTED) {
-                return;
+                continue;
             }
             let approach = approach(contact, bodies, switches);
             if approach >= threshold {
                 bounced |= rebound(contact, approach, gravity, bodies, profiles);
             }
-        };
-        if pass % 2 == 0 {
-            pool.all_mut().iter_mut().for_each(&mut visit);
-        } else {
-            pool.all_mut().iter_mut().rev().for_each(&mut visit);
         }
         if !bounced {
             break;
@@ -74,6 +72,7 @@ fn approach<S: Scalar>(contact: &Contact<S>, bodies: &[Body<S>], switches: impl 
 
 /// Turns an approach around, if the bodies would meet in this step; whether it did.
 #[cold]
+#[inline(never)]
 fn rebound<S: Scalar>(
     contact: &mut Contact<S>,
     approach: S::Speed,
@@ -116,14 +115,9 @@ fn rebound<S: Scalar>(
 
 fn apply<S: Scalar>(contact: &Contact<S>, change: S::Speed, bodies: &mut [Body<S>]) {
     let change = contact.normal.map(|n| S::speed_times(change, n));
-    let part = |share| change.map(|speed| S::speed_times(speed, share));
+    let [own, other] = contact.parts(change);
     let a = &mut bodies[usize::from(contact.a)].velocity;
-    let push = part(contact.own_share());
-    *a = a.saturating_sub(push);
-    if !contact.flags.has(Flags::IMMOVABLE) {
-        let b = &mut bodies[usize::from(contact.b)].velocity;
-        // Equal masses get equal pushes: nothing is lost to rounding.
-        let push = if contact.flags.has(Flags::EVEN) { push } else { part(S::UNIT - contact.share) };
-        *b = b.saturating_add(push);
-    }
+    *a = a.saturating_sub(own);
+    let b = &mut bodies[usize::from(contact.b)].velocity;
+    *b = b.saturating_add(other);
 }
