@@ -324,11 +324,12 @@ fn shock<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let mut upper = first.a;
     let (mut a, mut marks) = (bodies[usize::from(upper)].velocity, Marks::default());
     for contact in contacts {
-        if contact.flags.has(Flags::FAR) {
+        let flags = contact.flags;
+        if flags.has(Flags::FAR) {
             continue;
         }
         let pushes = contact.impulse.x > zero;
-        if !pushes && contact.gap > zero && !contact.flags.has(Flags::BEARS) {
+        if !pushes && contact.gap > zero && !flags.has(Flags::BEARS) {
             continue;
         }
         if contact.a != upper {
@@ -342,16 +343,16 @@ fn shock<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
             marks.set(held);
             b.marks.set(held);
         }
-        if !contact.flags.has(Flags::CONNECTS) {
+        if !flags.has(Flags::CONNECTS) {
             continue;
         }
-        if !contact.flags.has(Flags::IMMOVABLE) && !b.marks.has(Marks::GROUNDED) {
+        if !flags.has(Flags::IMMOVABLE) && !b.marks.has(Marks::GROUNDED) {
             continue;
         }
         if pushes || contact.gap <= graze {
             marks.set(Marks::GROUNDED);
         }
-        if !contact.flags.has(Flags::BEARS) || (contact.gap <= zero && a == b.velocity) {
+        if !flags.has(Flags::BEARS) || (contact.gap <= zero && a == b.velocity) {
             continue;
         }
         if pushes && contact.gap <= zero && S::is_at_rest(a, b.velocity) {

@@ -40,17 +40,17 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
         let slot = usize::from(slot);
         let body = &mut bodies[slot];
         let before = &mut before[slot];
-        let mut velocity = body.velocity;
+        let (mut velocity, marks) = (body.velocity, body.marks);
         let mut may_exceed = near_cap;
-        if body.marks.has(Marks::FORCED) {
+        if marks.has(Marks::FORCED) {
             may_exceed = true;
             // What the game's forces add lies where the velocity goes now.
             velocity = velocity.saturating_add(*before);
         }
         *before = body.velocity;
         let passing = Marks::HELD_X.or(Marks::HELD_Y).or(Marks::GROUNDED).or(Marks::FORCED).or(Marks::FAST);
-        let stood = if body.marks.has(Marks::GROUNDED) { Marks::STOOD } else { Marks::default() };
-        body.marks = body.marks.without(passing).or(stood);
+        let stood = if marks.has(Marks::GROUNDED) { Marks::STOOD } else { Marks::default() };
+        body.marks = marks.without(passing).or(stood);
         body.push = 0;
         if !body.status.is_rigid() {
             continue;
