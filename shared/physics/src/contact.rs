@@ -93,6 +93,12 @@ impl Flags {
     pub(crate) const fn along(axis: Axis) -> Self {
         Self(Self::AXIS.0 | axis as u16)
     }
+    /// Whether the normal slopes and an impulse moves both bodies alike: most contacts between balls, known in one test.
+    #[inline]
+    pub(crate) fn is_plain(self, switches: impl Switches) -> bool {
+        let kind = Self::AXIS.or(Self::IMMOVABLE).or(Self::EVEN);
+        switches.variety().contain(Variety::CIRCLES) && self.0 & kind.0 == Self::EVEN.0
+    }
     /// Forgets what the geometry had said.
     pub(crate) fn forget_geometry(&mut self) {
         let geometry = Self::AXIS.or(Self::FAR).or(Self::NEW).or(Self::BEARS).or(Self::CONNECTS).or(Self::BOUNCED);
@@ -174,13 +180,6 @@ impl<S: Scalar> Contact<S> {
     #[inline]
     pub(crate) fn is_even(&self, switches: impl Switches) -> bool {
         !switches.variety().contain(Variety::MASSES) || self.flags.has(Flags::EVEN)
-    }
-
-    /// Whether the normal slopes and an impulse moves both bodies alike: most contacts between balls, known in one test.
-    #[inline]
-    pub(crate) fn is_plain(&self, switches: impl Switches) -> bool {
-        let kind = Flags::AXIS.or(Flags::IMMOVABLE).or(Flags::EVEN);
-        switches.variety().contain(Variety::CIRCLES) && self.flags.0 & kind.0 == Flags::EVEN.0
     }
 
     /// Components of a vector along the normal (x) and the normal turned by a quarter (y).

@@ -38,8 +38,8 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
 #[inline(never)]
 fn pass<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) -> bool {
     let mut changed = false;
-    for_each_live(world, |contact, a, b| {
-        if visit(contact, a, b, switches) {
+    for_each_live(world, |contact, flags, a, b| {
+        if visit(contact, flags, a, b, switches) {
             changed = true;
         }
     });
@@ -57,7 +57,7 @@ const RESIDUE: I16F16 = ratio(1, 1 << 14);
 #[inline(always)] // each caller's loop keeps the upper body's velocity in registers
 fn for_each_live<S: Scalar>(
     world: &mut World<'_, S>,
-    mut visit: impl FnMut(&mut Contact<S>, &mut Vec2<S::Speed>, &mut Vec2<S::Speed>),
+    mut visit: impl FnMut(&mut Contact<S>, Flags, &mut Vec2<S::Speed>, &mut Vec2<S::Speed>),
 ) {
     let World { pool, bodies, .. } = world;
     let contacts = pool.all_mut();
@@ -65,7 +65,8 @@ fn for_each_live<S: Scalar>(
     let mut upper = first.a;
     let mut a = bodies[usize::from(upper)].velocity;
     for contact in contacts {
-        if contact.flags.has(Flags::FAR) {
+        let flags = contact.flags;
+        if flags.has(Flags::FAR) {
             continue;
         }
         if contact.a != upper {
@@ -73,7 +74,7 @@ fn for_each_live<S: Scalar>(
             upper = contact.a;
             a = bodies[usize::from(upper)].velocity;
         }
-        visit(contact, &mut a, &mut bodies[usize::from(contact.b)].velocity);
+        visit(contact, flags, &mut a, &mut bodies[usize::from(contact.b)].velocity);
     }
     bodies[usize::from(upper)].velocity = a;
 }
@@ -184,6 +185,7 @@ fn hand<S: Scalar>(
 #[inline(always)] // into the loop over contacts
 fn visit<S: Scalar>(
     contact: &mut Contact<S>,
+    flags: Flags,
     a: &mut Vec2<S::Speed>,
     b: &mut Vec2<S::Speed>,
     switches: impl Switches,
@@ -197,7 +199,7 @@ fn visit<S: Scalar>(
         (*a, *b) = visit_widely(contact, *a, *b, switches.on(Effects::FRICTION));
         return true;
     }
-    if contact.is_plain(switches) {
+    if flags.is_plain(switches) {
         answer::<S, true>(contact, a, b, switches)
     } else {
         answer::<S, false>(contact, a, b, switches)
