@@ -91,18 +91,18 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let Some(last) = contacts.last() else { return };
     let mut upper = last.a;
     let mut a = bodies[usize::from(upper)].velocity;
-    // Whether anything bears the upper body; and what bears it alone, if it may be handed down to.
-    let (mut borne, mut bearer) = (false, None);
+    // How many contacts bear the upper body, and the last of them.
+    let (mut bearers, mut bearer) = (0, None);
     for contact in contacts.iter_mut().rev() {
         if contact.flags.has(Flags::FAR) {
             continue;
         }
         if contact.a != upper {
-            hand_down(bearer, &mut a, bodies, before, ground, switches);
+            hand_down(bearers, bearer, &mut a, bodies, before, ground, switches);
             bodies[usize::from(upper)].velocity = a;
             upper = contact.a;
             a = bodies[usize::from(upper)].velocity;
-            (borne, bearer) = (false, None);
+            (bearers, bearer) = (0, None);
         }
         if contact.impulse.x != S::Speed::ZERO {
             if contact.gap < crushed {
@@ -120,17 +120,17 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
             };
         }
         if contact.flags.has(Flags::BEARS) {
-            let alone = !borne && !contact.slopes(switches);
-            (borne, bearer) = (true, alone.then_some(contact));
+            (bearers, bearer) = (bearers + 1, Some(contact));
         }
     }
-    hand_down(bearer, &mut a, bodies, before, ground, switches);
+    hand_down(bearers, bearer, &mut a, bodies, before, ground, switches);
     bodies[usize::from(upper)].velocity = a;
 }
 
 /// What a body that stood lacks for staying on the only contact that bears it, that one has to carry.
 #[inline(always)] // into the loop over contacts
 fn hand_down<S: Scalar>(
+    bearers: u32,
     bearer: Option<&mut Contact<S>>,
     a: &mut Vec2<S::Speed>,
     bodies: &mut [Body<S>],
@@ -139,6 +139,9 @@ fn hand_down<S: Scalar>(
     switches: impl Switches,
 ) {
     let Some(contact) = bearer else { return };
+    if bearers > 1 || contact.slopes(switches) {
+        return;
+    }
     let stood = bodies[usize::from(contact.a)].marks.has(Marks::STOOD);
     if !stood || contact.impulse.x <= S::Speed::ZERO {
         return;
