@@ -113,10 +113,12 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
             }
             let b = &mut bodies[usize::from(contact.b)].velocity;
             let change = contact.impulse;
-            (a, *b) = if S::is_tame(a, *b, change.x) {
-                pushed_apart(contact, change, a, *b, switches)
-            } else {
+            (a, *b) = if !S::is_tame(a, *b, change.x) {
                 pushed_apart_widely(contact, change, a, *b)
+            } else if contact.flags.is_plain(switches) {
+                pushed_alike(contact, change, a, *b)
+            } else {
+                pushed_apart(contact, change, a, *b, switches)
             };
         }
         if contact.flags.has(Flags::BEARS) {
@@ -237,12 +239,23 @@ fn answer<S: Scalar, const PLAIN: bool>(
     }
     contact.impulse = vec2(along_normal, along_tangent);
     (*a, *b) = if PLAIN {
-        let half = S::out_of_frame(change, contact.normal).map(S::half_speed);
-        (*a - half, *b + half)
+        pushed_alike(contact, change, *a, *b)
     } else {
         pushed_apart(contact, change, *a, *b, switches)
     };
     !change.x.is_within(S::per_step(S::real(RESIDUE)))
+}
+
+/// [`pushed_apart`] where the contact is [plain](Flags::is_plain).
+#[inline(always)] // into the loops over contacts
+fn pushed_alike<S: Scalar>(
+    contact: &Contact<S>,
+    change: Vec2<S::Speed>,
+    a: Vec2<S::Speed>,
+    b: Vec2<S::Speed>,
+) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
+    let half = S::out_of_frame(change, contact.normal).map(S::half_speed);
+    (a - half, b + half)
 }
 
 /// Tame velocities after a tame change of their difference, each by its share.
