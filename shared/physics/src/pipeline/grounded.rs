@@ -238,11 +238,8 @@ fn answer<S: Scalar, const PLAIN: bool>(
         return false;
     }
     contact.impulse = vec2(along_normal, along_tangent);
-    (*a, *b) = if PLAIN {
-        pushed_alike(contact, change, *a, *b)
-    } else {
-        pushed_apart(contact, change, *a, *b, switches)
-    };
+    (*a, *b) =
+        if PLAIN { pushed_alike(contact, change, *a, *b) } else { pushed_apart(contact, change, *a, *b, switches) };
     !change.x.is_within(S::per_step(S::real(RESIDUE)))
 }
 

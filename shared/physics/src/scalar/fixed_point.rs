@@ -146,11 +146,22 @@ fn even_leading_zeros(word: u32) -> u32 {
 fn normalized(number: u64) -> (u32, u32) {
     let (high, low) = ((number >> 32) as u32, number as u32);
     if high == 0 {
-        let zeros = even_leading_zeros(low);
-        return (low << zeros, 16 + zeros / 2);
+        return normalized_word(low);
     }
     let zeros = even_leading_zeros(high);
     (high << zeros | (low >> 1) >> (31 - zeros), zeros / 2)
+}
+
+/// [`normalized`] for one word: the square of less than a px.
+#[cold]
+#[inline(never)]
+fn normalized_word(mut number: u32) -> (u32, u32) {
+    let mut up = 16;
+    while number < 1 << 30 {
+        number <<= 2;
+        up += 1;
+    }
+    (number, up)
 }
 
 impl Scalar for Fixed {
