@@ -14,6 +14,7 @@ use crate::effects::Switches;
 use crate::pipeline::order::Ground;
 use crate::pipeline::{carry, ccd};
 use crate::scalar::{Quantity, Scalar, px};
+use crate::vec2::Vec2;
 use crate::world::World;
 
 /// Most that one contact parts two movable bodies by in a step, px: many in one place don't throw each other over a wall.
@@ -108,17 +109,18 @@ fn lift<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Bod
 /// Moves both bodies along the normal, each by its share.
 fn part<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Body<S>], ground: Ground) {
     let apart = contact.normal.map(|n| S::speed_times(correction, n));
-    let mut shift = |slot: u16, motion: crate::vec2::Vec2<S::Speed>| {
-        let body = &mut bodies[usize::from(slot)];
-        body.position = body.position.saturating_add(motion.map(S::in_a_step));
-        body.push = body.push.saturating_add(S::whole_pushes(ground.depth(motion)));
-        body.marks.set(Marks::MOVED);
-    };
     let [own, other] = contact.parts(apart);
-    shift(contact.a, -own);
+    shift(&mut bodies[usize::from(contact.a)], -own, ground);
     if !contact.flags.has(Flags::IMMOVABLE) {
-        shift(contact.b, other);
+        shift(&mut bodies[usize::from(contact.b)], other, ground);
     }
+}
+
+#[inline(never)]
+fn shift<S: Scalar>(body: &mut Body<S>, motion: Vec2<S::Speed>, ground: Ground) {
+    body.position = body.position.saturating_add(motion.map(S::in_a_step));
+    body.push = body.push.saturating_add(S::whole_pushes(ground.depth(motion)));
+    body.marks.set(Marks::MOVED);
 }
 
 const _: () = assert!(PUSH == 1 << 12);

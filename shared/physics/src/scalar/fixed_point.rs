@@ -3,6 +3,7 @@
 use ::fixed::types::{I2F30, I8F24, I16F16};
 
 use super::{Quantity, SPEED_LIMIT, STEP_HZ, Scalar};
+use crate::geometry::direction;
 use crate::vec2::{Vec2, vec2};
 
 /// The fixed-point format: the same bits on every chip, no FPU needed.
@@ -369,7 +370,8 @@ impl Scalar for Fixed {
         I8F24::from_bits((i64::from(motion.to_bits()) * rest / i64::from(i16::MAX)) as i32)
     }
     fn capped(velocity: Vec2<I8F24>, cap: I8F24) -> Vec2<I8F24> {
-        let Some((direction, speed)) = Self::direction(velocity.map(|v| I16F16::from_bits(v.to_bits() >> 1))) else {
+        let halved = velocity.map(|v| I16F16::from_bits(v.to_bits() >> 1));
+        let Some((direction, speed)) = direction::<Self>(halved) else {
             return velocity;
         };
         // Twice that speed in Q23 is the speed in Q24.
