@@ -314,6 +314,11 @@ impl Status {
     pub(crate) fn collides(self) -> bool {
         self.0 & (Self::TAKEN | Self::DISABLED | Self::HIDDEN) == Self::TAKEN
     }
+    /// What holds of both.
+    #[inline]
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
     pub(crate) fn disable(&mut self) {
         self.0 |= Self::DISABLED;
     }

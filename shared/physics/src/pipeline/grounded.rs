@@ -212,7 +212,7 @@ fn visit<S: Scalar>(
 }
 
 /// [`visit`] for tame bodies: below 23 px/step against each other, impulses below 32, gaps at most 100, so no sum here leaves the
-/// format. What follows from `PLAIN` being asked for once spares the commonest kind of contact a tenth of its visit.
+/// format. `PLAIN`: whether the contact [is](Flags::is_plain).
 #[inline(always)] // into the loop over contacts
 fn answer<S: Scalar, const PLAIN: bool>(
     contact: &mut Contact<S>,

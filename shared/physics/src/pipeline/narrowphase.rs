@@ -77,7 +77,7 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
 /// and nothing done, if that is not what they are or they have one centre.
 #[inline(always)] // as a call, detection costs a tenth more
 fn circles<S: Scalar>(contact: &mut Contact<S>, a: &Body<S>, b: &Body<S>, farthest: S::Real, ground: Ground) -> bool {
-    if !a.status.is_circle() || !b.status.is_circle() {
+    if !a.status.and(b.status).is_circle() {
         return false;
     }
     let (offset, touch) = (b.position - a.position, a.half.x + b.half.x);
