@@ -55,10 +55,12 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
             continue;
         }
         let may_pass = switches.on(Effects::ONE_WAY) && b.status.is_one_way();
-        if !round || may_pass || !circles(contact, a, b, farthest, ground) {
+        let known = if round && !may_pass { circles(contact, a, b, farthest, ground) } else { None };
+        let gap = known.unwrap_or_else(|| {
             at_corner |= look(contact, a, b, may_pass, ground, round);
-        }
-        deepest = deepest.lesser(contact.gap);
+            contact.gap
+        });
+        deepest = deepest.lesser(gap);
         // No pass after this one looks at what is far: so sensors notice and never block, and cost no pass anything.
         if switches.on(Effects::SENSORS) && contact.flags.has(Flags::SENSOR) {
             contact.flags.set(Flags::FAR);
@@ -73,27 +75,31 @@ pub(crate) fn refresh<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
     }
 }
 
-/// Looks again at a contact of two circles, the commonest kind, of which no two come closer in this step than by `farthest`. False,
-/// and nothing done, if that is not what they are or they have one centre.
+/// Looks again at a contact of two circles, the commonest kind, of which no two come closer in this step than by `farthest`: its
+/// gap. None, and nothing done, if that is not what they are or they have one centre.
 #[inline(always)] // as a call, detection costs a tenth more
-fn circles<S: Scalar>(contact: &mut Contact<S>, a: &Body<S>, b: &Body<S>, farthest: S::Real, ground: Ground) -> bool {
+fn circles<S: Scalar>(
+    contact: &mut Contact<S>,
+    a: &Body<S>,
+    b: &Body<S>,
+    farthest: S::Real,
+    ground: Ground,
+) -> Option<S::Speed> {
     if !a.status.and(b.status).is_circle() {
-        return false;
+        return None;
     }
     let (offset, touch) = (b.position - a.position, a.half.x + b.half.x);
     let outer = touch + farthest;
     if !offset.x.is_within(outer) || !offset.y.is_within(outer) || !S::within(offset, outer) {
         leave(contact);
-        return true;
+        return Some(S::FASTEST);
     }
-    let Some((normal, distance)) = S::direction(offset) else {
-        return false;
-    };
+    let (normal, distance) = S::direction(offset)?;
     let mut gap = distance - touch;
     if gap > S::real(GRAZE) {
         let Some(leeway) = between(a, b, normal, gap) else {
             leave(contact);
-            return true;
+            return Some(S::FASTEST);
         };
         gap = leeway;
     }
@@ -105,7 +111,7 @@ fn circles<S: Scalar>(contact: &mut Contact<S>, a: &Body<S>, b: &Body<S>, farthe
         contact.flags.forget_geometry();
         contact.flags.set(bearing::<S>(normal, ground));
     }
-    true
+    Some(contact.gap)
 }
 
 /// How far two circles may come along the normal in this step; none if they can't touch.
