@@ -53,7 +53,11 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
     let mut parted = false;
     world.deep = false;
     let mut pushed_anybody = false;
+    let shallow = -slop;
     for contact in world.pool.all() {
+        if !pushed_anybody && contact.gap >= shallow {
+            continue; // most contacts at rest, and most of those that are far
+        }
         if contact.flags.has(Flags::FAR) {
             continue;
         }
