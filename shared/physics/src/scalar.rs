@@ -185,6 +185,8 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn tame_share(speed: Self::Speed, share: Self::Unit) -> Self::Speed;
     /// Half of a speed, rounded down.
     fn half_speed(speed: Self::Speed) -> Self::Speed;
+    /// A sixteenth of a speed, rounded down.
+    fn sixteenth(speed: Self::Speed) -> Self::Speed;
     /// A half of a speed, as [`speed_times`](Self::speed_times) rounds it.
     fn even_part(speed: Self::Speed) -> Self::Speed;
     /// The most that friction may do: a speed of 0 or more times a coefficient in 1/32768, rounded down.

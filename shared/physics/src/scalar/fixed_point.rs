@@ -292,6 +292,10 @@ impl Scalar for Fixed {
         I8F24::from_bits(speed.to_bits() >> 1)
     }
     #[inline]
+    fn sixteenth(speed: I8F24) -> I8F24 {
+        I8F24::from_bits(speed.to_bits() >> 4)
+    }
+    #[inline]
     fn even_part(speed: I8F24) -> I8F24 {
         let bits = speed.to_bits();
         I8F24::from_bits((bits >> 1) + (bits & i32::from(bits > 0)))

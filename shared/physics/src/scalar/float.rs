@@ -128,6 +128,10 @@ macro_rules! float_scalar {
                 speed * 0.5
             }
             #[inline]
+            fn sixteenth(speed: $float) -> $float {
+                speed * 0.0625
+            }
+            #[inline]
             fn even_part(speed: $float) -> $float {
                 speed * 0.5
             }
