@@ -41,6 +41,7 @@ use flat_rig::{check, input, number};
 use cli::{Cli, Command};
 
 fn main() -> ExitCode {
+    report::reader::may_leave();
     let arguments = Cli::parse();
     let outcome = interrupt::install().and_then(|()| match arguments.command {
         Command::Run(arguments) => run::run(&arguments),

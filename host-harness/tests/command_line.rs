@@ -31,6 +31,14 @@ fn the_list_names_every_scene_with_its_purpose() {
 }
 
 #[test]
+fn a_reader_that_has_left_ends_it_without_a_word() {
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    let list = Command::new(env!("CARGO_BIN_EXE_rig")).args(["run", "--list"]).stdout(writer).output();
+    assert_eq!(text(&list.expect("rig starts").stderr), "");
+}
+
+#[test]
 fn every_scene_passes_on_the_mock_and_the_file_says_so() {
     let path = std::env::temp_dir().join(format!("rig-report-{}.json", std::process::id()));
     let output = rig(&["run", "--json", path.to_str().expect("a UTF-8 path")]);

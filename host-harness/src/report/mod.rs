@@ -8,6 +8,7 @@ pub mod marks;
 pub mod page;
 pub mod plot;
 pub mod progress;
+pub mod reader;
 pub mod scale;
 pub mod terminal;
 pub mod wait;
