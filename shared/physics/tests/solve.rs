@@ -305,22 +305,6 @@ proptest! {
         let off = Effects::GRAVITY | Effects::FRICTION;
         prop_assert_eq!(outcome(&defs, &order, 40, off), outcome(&neutral, &order, 40, USUAL));
     }
-
-    #[test]
-    fn switches_set_when_compiled_equal_those_set_at_run_time(defs in crowd()) {
-        use flat_physics::Only;
-        let order: Vec<_> = (0..defs.len()).collect();
-        macro_rules! compare {
-            ($($effects:expr),*) => {$(
-                prop_assert_eq!(
-                    outcome(&defs, &order, 30, Only::<{ $effects.bits() }>),
-                    outcome(&defs, &order, 30, $effects)
-                );
-            )*};
-        }
-        compare!(Effects::NONE, Effects::GRAVITY, Effects::BOUNCE, Effects::FRICTION, USUAL);
-        compare!(Effects::GRAVITY.and(Effects::BOUNCE), Effects::GRAVITY.and(Effects::FRICTION), Effects::BOUNCE.and(Effects::FRICTION));
-    }
 }
 
 #[test]
