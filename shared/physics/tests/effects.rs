@@ -2,6 +2,8 @@
 //! acts as if its inputs were neutral.
 
 use flat_physics::scalar::{px, ratio};
+use flat_physics::tiles::{BehaviorLayer, TileFlags};
+use flat_physics::world::Terrain;
 use flat_physics::{
     BodyDef, Config, Effects, Error, Fixed, Kind, Level, Material, Only, Shape, Storage, Switches, Vec2, World, digest,
     step, vec2,
@@ -147,21 +149,26 @@ fn sets_are_what_their_bits_say() {
     assert_eq!(Effects::NONE.to_string(), "none");
 }
 
-/// Builds a heap from numbers and tells its digests, with settings and bodies changed.
-fn run(
-    bodies: &[(i16, i16, i16, bool)],
+/// Bodies as numbers: where they are, how fast, and whether they are round.
+type Heap = [(i16, i16, i16, bool)];
+
+/// Builds a heap with settings and bodies changed, lets something happen before each of its steps, and looks at it after each.
+fn run_with<T>(
+    heap: &Heap,
     effects: Effects,
     config: impl Fn(&mut Config<Fixed>),
     body: impl Fn(&mut BodyDef<Fixed>),
-) -> Vec<u64> {
-    let mut storage = Storage::<Fixed, 16, 128>::new();
+    before: impl Fn(u32, &mut World<'_, Fixed>),
+    look: impl Fn(&World<'_, Fixed>) -> T,
+) -> Vec<T> {
+    let mut storage = Storage::<Fixed, 24, 256, 16>::new();
     let mut world = storage.world();
     let mut settings = Config::default();
     config(&mut settings);
     world.configure(settings).unwrap();
     let material = Material { restitution: ratio(1, 2), bounce: true, friction: ratio(1, 4) };
     let floor = BodyDef::fixed(Shape::Box { half: vec2(px(100), px(5)) }, vec2(px(0), px(60)));
-    let defs = bodies.iter().map(|&(x, y, v, circle)| {
+    let defs = heap.iter().map(|&(x, y, v, circle)| {
         let shape = if circle { Shape::Circle { radius: px(4) } } else { Shape::Box { half: vec2(px(4), px(3)) } };
         BodyDef { velocity: vec2(px(v), px(-v / 2)), ..BodyDef::rigid(shape, vec2(px(x), px(y))) }
     });
@@ -170,39 +177,126 @@ fn run(
         body(&mut def);
         world.spawn(&def).unwrap();
     }
-    (0..90).map(|_| (step(&mut world, effects), digest(&world)).1).collect()
+    let steps = (0..90).map(|number| {
+        before(number, &mut world);
+        step(&mut world, effects);
+        look(&world)
+    });
+    steps.collect()
+}
+
+/// The digests of a heap.
+fn run(
+    heap: &Heap,
+    effects: Effects,
+    config: impl Fn(&mut Config<Fixed>),
+    body: impl Fn(&mut BodyDef<Fixed>),
+) -> Vec<u64> {
+    run_with(heap, effects, config, body, |_, _| (), digest)
+}
+
+/// Where the bodies of a heap are and how fast: for comparing bodies that are defined differently.
+fn moves(
+    heap: &Heap,
+    effects: Effects,
+    body: impl Fn(&mut BodyDef<Fixed>),
+    before: impl Fn(u32, &mut World<'_, Fixed>),
+) -> Vec<impl PartialEq + core::fmt::Debug> {
+    run_with(
+        heap,
+        effects,
+        |_| (),
+        body,
+        before,
+        |world| {
+            let bodies = world.bodies().filter(|body| body.enabled);
+            bodies.map(|body| (body.position, body.velocity, body.remainder)).collect::<Vec<_>>()
+        },
+    )
+}
+
+fn heap() -> impl Strategy<Value = Vec<(i16, i16, i16, bool)>> {
+    prop::collection::vec((-40i16..40, -40i16..50, -900i16..900, any::<bool>()), 1..15)
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 32, ..ProptestConfig::default() })]
 
     #[test]
-    fn an_effect_that_is_off_acts_as_if_its_inputs_were_neutral(
-        bodies in prop::collection::vec((-40i16..40, -40i16..50, -900i16..900, any::<bool>()), 1..15),
-    ) {
+    fn an_effect_that_is_off_acts_as_if_its_inputs_were_neutral(heap in heap()) {
         let as_is = |_: &mut Config<Fixed>| ();
         let whole = |_: &mut BodyDef<Fixed>| ();
         let all = Effects::ALL;
-        let off = |effect| run(&bodies, all.without(effect), as_is, whole);
-        let weightless = run(&bodies, all, |config| config.gravity = Vec2::default(), whole);
+        let off = |effect| run(&heap, all.without(effect), as_is, whole);
+        let weightless = run(&heap, all, |config| config.gravity = Vec2::default(), whole);
         let sideways = |config: &mut Config<Fixed>| config.gravity = vec2(px(-300), px(0));
         prop_assert_eq!(&off(Effects::GRAVITY), &weightless);
-        prop_assert_eq!(&run(&bodies, all.without(Effects::GRAVITY), sideways, whole), &weightless);
-        prop_assert_eq!(off(Effects::DAMPING), run(&bodies, all, |config| config.damping = px(1), whole));
-        prop_assert_eq!(off(Effects::FRICTION), run(&bodies, all, as_is, |def| def.material.friction = px(0)));
-        prop_assert_eq!(off(Effects::BOUNCE), run(&bodies, all, as_is, |def| def.material.bounce = false));
-        prop_assert_eq!(off(Effects::EVENTS), run(&bodies, all, as_is, whole));
+        prop_assert_eq!(&run(&heap, all.without(Effects::GRAVITY), sideways, whole), &weightless);
+        prop_assert_eq!(off(Effects::DAMPING), run(&heap, all, |config| config.damping = px(1), whole));
+        prop_assert_eq!(off(Effects::FRICTION), run(&heap, all, as_is, |def| def.material.friction = px(0)));
+        prop_assert_eq!(off(Effects::BOUNCE), run(&heap, all, as_is, |def| def.material.bounce = false));
+        prop_assert_eq!(off(Effects::SPEED_CAP), run(&heap, all, |config| config.speed_cap = px(7620), whole));
+        prop_assert_eq!(off(Effects::CCD), run(&heap, all, |config| config.ccd_threshold = px(16), whole));
+        prop_assert_eq!(off(Effects::EVENTS), run(&heap, all, as_is, whole));
         let driven = |moves: bool| move |def: &mut BodyDef<Fixed>| {
             if def.velocity.x > 0 {
                 def.kind = Kind::Kinematic;
                 def.velocity = if moves { def.velocity } else { Vec2::default() };
             }
         };
-        prop_assert_eq!(run(&bodies, all.without(Effects::KINEMATIC), as_is, driven(true)), run(&bodies, all, as_is, driven(false)));
-        // These find nothing to do here.
-        for effect in [Effects::SENSORS, Effects::ONE_WAY, Effects::TILES] {
-            prop_assert_eq!(off(effect), run(&bodies, all, as_is, whole), "{}", effect);
-        }
+        prop_assert_eq!(run(&heap, all.without(Effects::KINEMATIC), as_is, driven(true)), run(&heap, all, as_is, driven(false)));
+    }
+
+    #[test]
+    fn bodies_are_plain_where_what_makes_them_special_is_off(heap in heap()) {
+        let all = Effects::ALL;
+        let sensing = |sensor: bool| move |def: &mut BodyDef<Fixed>| def.sensor = sensor && def.velocity.x > 0;
+        let untouched = |_: u32, _: &mut World<'_, Fixed>| ();
+        prop_assert_eq!(
+            moves(&heap, all.without(Effects::SENSORS), sensing(true), untouched),
+            moves(&heap, all, sensing(false), untouched)
+        );
+        let holding = |one_way: bool| move |def: &mut BodyDef<Fixed>| {
+            if def.velocity.x > 0 {
+                *def = BodyDef { kind: Kind::Static, velocity: Vec2::default(), one_way, ..*def };
+            }
+        };
+        prop_assert_eq!(
+            moves(&heap, all.without(Effects::ONE_WAY), holding(true), untouched),
+            moves(&heap, all, holding(false), untouched)
+        );
+    }
+
+    #[test]
+    fn a_map_of_tiles_is_empty_as_far_as_its_effects_are_off(heap in heap()) {
+        let lay = |solid: u8, one_way: u8, sensor: u8| move |number: u32, world: &mut World<'_, Fixed>| {
+            if number == 0 {
+                // Beside a solid tile, a one-way tile would also make its corner a seam.
+                let tiles = [solid, 0, one_way, sensor, one_way, 0, solid, sensor];
+                let terrain = Terrain { origin: vec2(-64, 10), ..Terrain::DEFAULT };
+                world.set_tiles(&BehaviorLayer::new(&tiles, 8, 1).unwrap(), &terrain).unwrap();
+            }
+        };
+        let [solid, one_way, sensor] = [TileFlags::SOLID, TileFlags::ONE_WAY, TileFlags::SENSOR].map(TileFlags::bits);
+        let (all, whole) = (Effects::ALL, |_: &mut BodyDef<Fixed>| ());
+        let there = lay(solid, one_way, sensor);
+        let without = |effect| moves(&heap, all.without(effect), whole, there);
+        prop_assert_eq!(without(Effects::TILES), moves(&heap, all, whole, lay(0, 0, 0)));
+        prop_assert_eq!(without(Effects::ONE_WAY), moves(&heap, all, whole, lay(solid, 0, sensor)));
+        prop_assert_eq!(without(Effects::SENSORS), moves(&heap, all, whole, lay(solid, one_way, 0)));
+    }
+
+    #[test]
+    fn nothing_sleeps_that_never_rests(heap in heap()) {
+        // A floor that carries everything along.
+        let belt = |def: &mut BodyDef<Fixed>| {
+            def.material.friction = px(1);
+            if def.kind == Kind::Static {
+                *def = BodyDef { kind: Kind::Kinematic, velocity: vec2(px(10), px(0)), ..*def };
+            }
+        };
+        let as_is = |_: &mut Config<Fixed>| ();
+        prop_assert_eq!(run(&heap, Effects::ALL.without(Effects::SLEEP), as_is, belt), run(&heap, Effects::ALL, as_is, belt));
     }
 }
 

@@ -371,13 +371,14 @@ fn note_tiles<S: Scalar, W: Switches>(
     if !profiles[usize::from(slot)].meets(&profiles[usize::from(map)]) {
         return;
     }
-    if body.status.is_rigid() && !body.status.is_sensor() {
+    let sensors = pairs.switches.on(Effects::SENSORS);
+    if body.status.is_rigid() && !(sensors && body.status.is_sensor()) {
         let room = terrain::room(tiles, body, reach, around);
         if room > 0 {
             update.note_terrain(slot, map, room, profiles);
         }
     }
-    if tiles.sensors() > 0 {
+    if sensors && tiles.sensors() > 0 {
         terrain::sensors(tiles, body, reach, |number| update.note_sensor_tile(slot, map, number, profiles));
     }
 }

@@ -193,7 +193,8 @@ fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl S
     }
     layers.statics().visit(&way, bodies, &mut |other| {
         let target = &bodies[usize::from(other)];
-        let solid = !body.status.is_sensor() && !target.status.is_sensor() && target.status.collides();
+        let notices = switches.on(Effects::SENSORS) && (body.status.is_sensor() || target.status.is_sensor());
+        let solid = !notices && target.status.collides();
         if solid && profiles[usize::from(slot)].meets(&profiles[usize::from(other)]) {
             let platform = switches.on(Effects::ONE_WAY) && target.status.is_one_way();
             if let Some(hit) = cast(&inner(&body), motion, &Outline::of(target))
@@ -222,8 +223,8 @@ fn sweep<S: Scalar>(a: u16, b: u16, flags: Flags, world: &mut World<'_, S>, swit
     let Some(hit) = cast(&inner(first), relative, &Outline::of(second)) else {
         return Outcome::Free;
     };
-    if first.status.is_sensor() || second.status.is_sensor() {
-        return if switches.on(Effects::SENSORS) { Outcome::Noticed } else { Outcome::Free };
+    if switches.on(Effects::SENSORS) && (first.status.is_sensor() || second.status.is_sensor()) {
+        return Outcome::Noticed;
     }
     if switches.on(Effects::ONE_WAY) {
         let dropped = flags.has(Flags::IMMOVABLE) && flags.has(Flags::DROPPED);
@@ -259,7 +260,8 @@ fn lands<S: Scalar>(hit: &Hit<S>, mover: &Body<S>, platform: &Body<S>, ground: G
 fn sweep_tiles<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl Switches) {
     let body = &world.bodies[usize::from(slot)];
     let meets = world.profiles[usize::from(slot)].meets(&world.profiles[usize::from(world.terrain)]);
-    if !body.marks.has(Marks::FAST) || !body.status.is_rigid() || body.status.is_sensor() || !meets {
+    let notices = switches.on(Effects::SENSORS) && body.status.is_sensor();
+    if !body.marks.has(Marks::FAST) || !body.status.is_rigid() || notices || !meets {
         return;
     }
     let whole = motion(slot, world, switches).map(S::in_a_step);
