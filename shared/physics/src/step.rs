@@ -66,10 +66,7 @@ impl Stage {
                 Level::Flat => flat::solve(world, switches),
                 Level::Grounded | Level::Exact => grounded::solve(world, switches),
             },
-            Self::IntegratePosition => {
-                ccd::limit(world, switches);
-                integrate::positions(world, switches);
-            }
+            Self::IntegratePosition => ccd::advance(world, switches),
             Self::CorrectPenetration => position::correct(world, switches),
             Self::Events => events::publish(world, switches),
         }

@@ -74,6 +74,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             smallest: S::Speed::ZERO,
             uneven: false,
             deep: false,
+            bounced: false,
             strays: false,
             speed_cap: S::Speed::ZERO,
             used: 0,
@@ -133,6 +134,8 @@ pub struct World<'a, S: Scalar> {
     pub(crate) uneven: bool,
     /// A contact may be so deep that continuous collision detection must care, however slow its bodies are.
     pub(crate) deep: bool,
+    /// Somebody has bounced in this step.
+    pub(crate) bounced: bool,
     /// A body may have left the world in this step.
     pub(crate) strays: bool,
     pub(crate) speed_cap: S::Speed,
@@ -174,7 +177,7 @@ impl<S: Scalar> World<'_, S> {
         (self.used, self.free, self.count) = (0, 0, 0);
         (self.called_for, self.declared, self.declared_level) = (Effects::NONE, None, None);
         (self.variety, self.declared_variety) = (Variety::BOXES, Variety::ALL);
-        (self.told_at, self.stirred, self.strays) = (None, false, false);
+        (self.told_at, self.stirred, self.strays, self.bounced) = (None, false, false, false);
         (self.steps, self.escaped, self.saturations) = (0, 0, 0);
         self.apply(Config::default());
     }

@@ -327,3 +327,33 @@ fn the_threshold_says_from_which_speed_on_bodies_are_swept() {
     };
     assert_eq!([1, 12, 13].map(passes), [false, false, true]);
 }
+
+#[test]
+fn what_becomes_fast_within_a_step_passes_nothing_and_slow_ones_beside_it_move_on() {
+    for level in [Level::Flat, Level::Grounded] {
+        // Nobody is fast when the step begins; a force makes a shot of one of them.
+        let run = |effects: Effects| {
+            let mut storage = Storage::<Fixed, 4, 8>::new();
+            let mut world = storage.world();
+            set_up(&mut world, level);
+            world.spawn(&BodyDef::fixed(square(1.0), vec2(px(9), px(0)))).unwrap();
+            let slow = BodyDef { velocity: vec2(px(7), px(-3)), ..BodyDef::rigid(square(1.0), vec2(px(-50), px(0))) };
+            let slow = world.spawn(&slow).unwrap();
+            let shot = world.spawn(&BodyDef::rigid(square(1.0), vec2(px(0), px(0)))).unwrap();
+            for _ in 0..5 {
+                step(&mut world, effects);
+            }
+            world.apply_impulse(slow, vec2(px(1), px(1))).unwrap();
+            world.apply_force(shot, vec2(px(32_767), px(0))).unwrap();
+            world.apply_force(shot, vec2(px(32_767), px(0))).unwrap();
+            step(&mut world, effects);
+            let first = place(&world, shot)[0];
+            step(&mut world, effects);
+            (first, place(&world, shot)[0], world.body(slow).unwrap())
+        };
+        let (swept, free) = (run(Effects::CCD), run(Effects::NONE));
+        assert!(swept.0 < 7.05 && swept.1 < 7.05, "{level:?}: {swept:?}");
+        assert!(free.1 > 9.0, "{level:?}: without it, {free:?}");
+        assert_eq!(swept.2, free.2, "{level:?}: whoever is slow");
+    }
+}

@@ -33,19 +33,53 @@ pub(crate) fn is_on<S: Scalar>(world: &World<'_, S>, switches: impl Switches) ->
     switches.on(Effects::CCD) || world.level(switches) == Level::Exact
 }
 
-/// Cuts the motions of fast bodies short; [`Body::push`] says by how much until they have moved.
-pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+/// Moves every body, and none through another.
+///
+/// Who is fast shows as all are moved. Most steps nobody is; otherwise the motions are taken back, and those that would meet
+/// something cut short.
+pub(crate) fn advance<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     if !is_on(world, switches) {
-        return;
+        return integrate::positions(world, switches);
     }
     let exact = world.level(switches) == Level::Exact;
-    if world.deep {
-        hold_back(world, switches);
-    }
     let threshold = if exact { S::Real::ZERO } else { world.config.ccd_threshold };
-    if all_are_slow(S::speed_scaled(world.smallest, threshold), world) {
-        return;
+    let slow = S::speed_scaled(world.smallest, threshold);
+    // Floats can't take a motion back to the last bit, nor can a motion that is cut already or a bounce be told afterwards.
+    let lenient = S::Real::SLACK == S::Real::ZERO && !world.deep && !world.bounced && world.fastest.is_within(slow);
+    if !lenient {
+        if world.deep {
+            hold_back(world, switches);
+        }
+        if !all_are_slow(slow, world) {
+            limit(world, threshold, switches);
+        }
     }
+    let (travel, fastest) = (world.travel, world.fastest);
+    integrate::positions(world, switches);
+    if lenient && !world.fastest.is_within(slow) {
+        take_back(world, switches);
+        (world.travel, world.fastest) = (travel, fastest);
+        limit(world, threshold, switches);
+        integrate::positions(world, switches);
+    }
+}
+
+/// Moves every body back by what it has just moved. Position and remainder then add up to what they did.
+#[cold]
+fn take_back<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    for place in 0..world.layers.dynamics().len() {
+        let slot = world.layers.dynamics()[place];
+        let motion = motion(slot, world, switches);
+        let body = &mut world.bodies[usize::from(slot)];
+        body.advance(-motion);
+        if body.marks.has(Marks::MOVED) {
+            world.crept[usize::from(slot)] = u16::MAX; // however little it moves now, it is looked at
+        }
+    }
+}
+
+/// Cuts the motions of fast bodies short; [`Body::push`] says by how much until they have moved.
+fn limit<S: Scalar>(world: &mut World<'_, S>, threshold: S::Real, switches: impl Switches) {
     let (mut fast, mut swift) = (false, false);
     for place in 0..world.layers.dynamics().len() {
         let slot = world.layers.dynamics()[place];
@@ -79,7 +113,7 @@ pub(crate) fn limit<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
     }
 }
 
-/// Whether nobody moves by more than that in this step: most steps end here.
+/// Whether nobody moves by more than that in this step.
 fn all_are_slow<S: Scalar>(slow: S::Speed, world: &World<'_, S>) -> bool {
     let is_slow = |body: &Body<S>| body.velocity.x.is_within(slow) && body.velocity.y.is_within(slow);
     world.fastest.is_within(slow) && world.slots().iter().all(is_slow)

@@ -28,6 +28,7 @@ pub(crate) fn velocities<S: Scalar>(world: &mut World<'_, S>, switches: impl Swi
     let bounced = switches.on(Effects::BOUNCE)
         && world.level(switches) != Level::Flat
         && bounce::bounce(world, gravity, switches);
+    world.bounced = bounced;
     let (damping, cap) = (world.config.damping, world.speed_cap);
     let below_cap = S::half_speed(cap); // along both axes: most need no root
     let scaled = switches.variety().contain(Variety::GRAVITY_SCALES) && world.variety.contain(Variety::GRAVITY_SCALES);

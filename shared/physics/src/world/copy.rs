@@ -53,6 +53,7 @@ impl<S: Scalar> World<'_, S> {
             smallest,
             uneven,
             deep,
+            bounced,
             strays,
             speed_cap,
             used,
@@ -80,7 +81,7 @@ impl<S: Scalar> World<'_, S> {
         (self.config, self.gravity, self.bounce_threshold, self.speed_cap) =
             (*config, *gravity, *bounce_threshold, *speed_cap);
         (self.travel, self.fastest, self.smallest, self.uneven) = (*travel, *fastest, *smallest, *uneven);
-        (self.deep, self.strays) = (*deep, *strays);
+        (self.deep, self.bounced, self.strays) = (*deep, *bounced, *strays);
         (self.used, self.free, self.count) = (*used, *free, *count);
         (self.called_for, self.declared, self.declared_level) = (*called_for, *declared, *declared_level);
         (self.variety, self.declared_variety) = (*variety, *declared_variety);
