@@ -10,11 +10,11 @@ use crate::error::Error;
 use crate::firmware::elf::Image;
 use crate::measure::probe::{self, Program};
 
-/// The engine's functions, by the beginning of their names.
-const ENGINE: &str = "flat_physics::";
+/// The engine's functions, by the beginning of their names: methods of generic types and of traits begin with their type.
+const ENGINE: [&str; 2] = ["flat_physics::", "<flat_physics::"];
 
 /// Functions that read a body's flags.
-const FLAGS: &str = "<flat_physics::body::Status>::is_";
+const FLAGS: &str = "flat_physics::body::Status::is_";
 
 /// Builds that [`measure`] makes.
 pub fn builds(effects: &[Effects]) -> usize {
@@ -51,22 +51,26 @@ pub fn measure(effects: &[Effects], bar: &ProgressBar) -> Result<Sizes, Error> {
 fn build(program: Program, effects: Effects, bar: &ProgressBar) -> Result<(Build, BTreeSet<String>), Error> {
     bar.set_message(format!("a {} with {effects}", program.bin()));
     let image = Image::read(&probe::build(program, Some(effects))?)?;
-    let places = image.places(|name| name.starts_with(ENGINE))?;
+    let places = image.places(is_of_the_engine)?;
     let functions = places.into_iter().map(|place| without_set(&place.function)).collect();
     bar.inc(1);
     let sizes = image.sizes;
     Ok((Build { text: sizes.text + sizes.rodata, ram: sizes.data + sizes.bss }, functions))
 }
 
-/// A function's name without the set of effects that this copy of it is for, `Only<4095>`.
+fn is_of_the_engine(name: &str) -> bool {
+    ENGINE.iter().any(|beginning| name.starts_with(beginning))
+}
+
+/// A function's name without the sets of effects that this copy of it is for, `Only<4095>`.
 fn without_set(name: &str) -> String {
-    match name.split_once("Only<") {
-        Some((before, after)) => {
-            let rest = after.split_once('>').map_or("", |(_, rest)| rest);
-            format!("{before}Only{rest}")
-        }
-        None => name.to_owned(),
+    let mut parts = name.split("Only<");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        text += "Only";
+        text += part.split_once('>').map_or("", |(_, rest)| rest);
     }
+    text
 }
 
 #[cfg(test)]
@@ -78,6 +82,7 @@ mod tests {
         let name =
             |set| without_set(&format!("flat_physics::step::step<fixed::Fixed, flat_physics::effects::Only<{set}>>"));
         assert_eq!(name("4095"), name("1"));
+        assert_eq!(without_set("<a::B<Only<1>>>::c<Only<1, 0>>::{closure#0}"), "<a::B<Only>>::c<Only>::{closure#0}");
         assert_eq!(without_set("flat_physics::pipeline::ccd::stop<f32>"), "flat_physics::pipeline::ccd::stop<f32>");
     }
 }
