@@ -210,7 +210,7 @@ impl<S: Scalar> World<'_, S> {
         self.before[usize::from(slot)] = Vec2::default();
         self.count += 1;
         self.changed(body.status.is_static());
-        self.disturb(slot);
+        self.stir(slot); // it has no contacts yet
         Ok(self.handle(slot))
     }
 
@@ -308,22 +308,27 @@ impl<S: Scalar> World<'_, S> {
 
     /// Something has happened to a body: its contacts are looked at again, and whoever sleeps on it wakes.
     pub(crate) fn disturb(&mut self, slot: u16) {
+        if self.stir(slot) {
+            self.contacts_of(slot).for_each(|contact| contact.flags.set(Flags::NEW));
+        }
+    }
+
+    /// Marks a body as one that something has happened to; whether its contacts have to be marked too.
+    fn stir(&mut self, slot: u16) -> bool {
         let body = &mut self.bodies[usize::from(slot)];
         if !body.status.is_static() {
             body.marks.set(Marks::MOVED);
         }
         if body.status.is_rigid() {
             self.stirred |= sleep::disturb(body, &mut self.profiles[usize::from(slot)]);
-            return;
+            return false;
         }
         let anybody_sleeps = self.layers.sleepers() > 0;
         if anybody_sleeps {
             body.marks.set(Marks::STIRRED);
             self.stirred = true;
         }
-        if anybody_sleeps || body.status.is_static() {
-            self.contacts_of(slot).for_each(|contact| contact.flags.set(Flags::NEW));
-        }
+        anybody_sleeps || body.status.is_static()
     }
 
     /// A body's contacts, as far as they last.
