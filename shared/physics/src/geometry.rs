@@ -15,6 +15,7 @@ pub mod overlap;
 pub mod ray;
 
 pub use bounds::Bounds;
+pub(crate) use cast::cast_box;
 pub use cast::{Hit, cast};
 pub use overlap::{Penetration, overlaps, penetration, touches};
 pub use ray::ray;
@@ -91,6 +92,12 @@ impl<S: Scalar> Sum<S> {
         // Only the two far ends of the world are too far apart for the format; held there, they are nearer by its last place.
         let offset = second.centre.saturating_sub(first.centre);
         Self { offset, rect, round, reach: first.half + second.half }
+    }
+
+    /// The sum of two boxes.
+    fn of_boxes(first: &Outline<S>, second: &Outline<S>) -> Self {
+        let (offset, reach) = (second.centre.saturating_sub(first.centre), first.half + second.half);
+        Self { offset, rect: reach, round: S::Real::ZERO, reach }
     }
 
     /// From a point to the centre of the round corner in whose quarter it lies; none if it lies beside, above or inside the

@@ -7,7 +7,8 @@ use flat_physics::{
     vec2,
 };
 
-const EFFECTS: u16 = Effects::GRAVITY.and(Effects::BOUNCE).and(Effects::FRICTION).and(Effects::KINEMATIC).bits();
+const EFFECTS: u16 =
+    Effects::GRAVITY.and(Effects::BOUNCE).and(Effects::FRICTION).and(Effects::KINEMATIC).and(Effects::CCD).bits();
 const GROUNDED: u8 = Level::Grounded as u8;
 const BOXES: Only<EFFECTS, GROUNDED, { Variety::BOXES.bits() }> = Only;
 const ANY: Only<EFFECTS, GROUNDED> = Only;
@@ -72,7 +73,7 @@ fn run(switches: impl Switches) -> u64 {
     }
     for n in 0..50 {
         let (x, y) = (n % 10 * 20 - 90, n / 10 * 30 - 200);
-        let velocity = vec2(I16F16::from_bits(i32::from(n) * 99_991 - 2_000_000), px(n % 7 * 30));
+        let velocity = vec2(I16F16::from_bits(i32::from(n) * 99_991 - 2_000_000), px(n % 7 * 150)); // some are swept
         world.spawn(&BodyDef { velocity, ..square(x, y) }).unwrap();
     }
     let sweeper = BodyDef::kinematic(square(0, 0).shape, vec2(px(-90), px(90)));

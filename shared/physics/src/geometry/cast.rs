@@ -32,6 +32,14 @@ pub fn cast<S: Scalar>(mover: &Outline<S>, motion: Vec2<S::Real>, target: &Outli
     Sum::of(mover, target).cast(motion)
 }
 
+/// [`cast`] for boxes: without what round corners take.
+#[inline(never)]
+pub(crate) fn cast_box<S: Scalar>(mover: &Outline<S>, motion: Vec2<S::Real>, target: &Outline<S>) -> Option<Hit<S>> {
+    let sum = Sum::of_boxes(mover, target);
+    let entry = enter::<S>(sum.offset, motion, sum.reach)?;
+    Some(if sum.is_reached() { sum.way_through_a_face().into() } else { sum.meet_face(entry) })
+}
+
 /// A moving point and the sum's span, seen along one axis.
 #[derive(Clone, Copy)]
 struct Lane<S: Scalar> {

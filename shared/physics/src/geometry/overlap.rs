@@ -37,10 +37,13 @@ impl<S: Scalar> Sum<S> {
     /// Whether the first one's centre lies inside.
     #[inline(never)]
     pub(super) fn is_entered(&self) -> bool {
+        self.is_reached() && self.corner_from(self.offset).is_none_or(|corner| S::Real::shorter(corner, self.core()))
+    }
+
+    /// Whether the first one's centre lies inside of the rectangle around the sum.
+    pub(super) fn is_reached(&self) -> bool {
         let inside = |offset, reach| gap::<S>(offset, reach) < S::Real::ZERO;
-        inside(self.offset.x, self.reach.x)
-            && inside(self.offset.y, self.reach.y)
-            && self.corner_from(self.offset).is_none_or(|corner| S::Real::shorter(corner, self.core()))
+        inside(self.offset.x, self.reach.x) && inside(self.offset.y, self.reach.y)
     }
 
     /// The shortest way out for the first one's centre, which lies inside.
@@ -48,6 +51,11 @@ impl<S: Scalar> Sum<S> {
         if let Some((direction, distance)) = self.corner_from(self.offset).and_then(direction::<S>) {
             return Penetration { normal: -direction, depth: (self.round - distance).greater(S::Real::NUDGE) };
         }
+        self.way_through_a_face()
+    }
+
+    /// The shortest way out through a face of the rectangle around the sum.
+    pub(super) fn way_through_a_face(&self) -> Penetration<S> {
         let (x, y) = (self.reach.x - self.offset.x.abs(), self.reach.y - self.offset.y.abs());
         if y <= x {
             Penetration { normal: vec2(S::Unit::ZERO, away::<S>(self.offset.y)), depth: y }

@@ -11,11 +11,12 @@ use crate::body::{Body, Marks};
 use crate::config::Level;
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
-use crate::geometry::{Bounds, Hit, Outline, along, cast, without};
+use crate::geometry::{Bounds, Hit, Outline, along, cast, cast_box, without};
 use crate::pipeline::order::Ground;
 use crate::pipeline::{integrate, one_way, terrain};
 use crate::scalar::{Exact, Quantity, Scalar, ratio};
 use crate::tiles::Tile;
+use crate::variety::Variety;
 use crate::vec2::Vec2;
 use crate::world::World;
 
@@ -231,7 +232,7 @@ fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl S
         let solid = !notices && target.status.collides();
         if solid && profiles[usize::from(slot)].meets(&profiles[usize::from(other)]) {
             let platform = switches.on(Effects::ONE_WAY) && target.status.is_one_way();
-            if let Some(hit) = cast(&inner(&body), motion, &Outline::of(target))
+            if let Some(hit) = impact(&body, motion, target, switches)
                 && (!platform || lands(&hit, &body, target, layers.ground()))
                 && let Some(time) = stop(&body, motion, &hit)
             {
@@ -254,7 +255,7 @@ fn sweep<S: Scalar>(a: u16, b: u16, flags: Flags, world: &mut World<'_, S>, swit
     if !meet || !near || !second.status.collides() || !(first.status.is_rigid() || second.status.is_rigid()) {
         return Outcome::Free;
     }
-    let Some(hit) = cast(&inner(first), relative, &Outline::of(second)) else {
+    let Some(hit) = impact(first, relative, second, switches) else {
         return Outcome::Free;
     };
     if switches.on(Effects::SENSORS) && (first.status.is_sensor() || second.status.is_sensor()) {
@@ -329,6 +330,22 @@ fn may_hold<S: Scalar>(tile: Tile, slot: u16, world: &World<'_, S>) -> bool {
             && terrain::tile(&world.tiles, contact)[1] == tile.row
     };
     world.layers.ground().axis() == Axis::Down && !world.pool.all().iter().any(lets_through)
+}
+
+/// Where a body that is swept meets another.
+#[inline]
+fn impact<S: Scalar>(
+    mover: &Body<S>,
+    motion: Vec2<S::Real>,
+    target: &Body<S>,
+    switches: impl Switches,
+) -> Option<Hit<S>> {
+    let (mover, target) = (inner(mover), Outline::of(target));
+    if switches.variety().contain(Variety::CIRCLES) {
+        cast(&mover, motion, &target)
+    } else {
+        cast_box(&mover, motion, &target)
+    }
 }
 
 /// A body that is swept, smaller by a skin.
