@@ -369,6 +369,7 @@ fn stop<S: Scalar>(body: &Body<S>, motion: Vec2<S::Real>, hit: &Hit<S>) -> Optio
 }
 
 /// How far a body would move in this step.
+#[inline(never)]
 fn motion<S: Scalar>(slot: u16, world: &World<'_, S>, switches: impl Switches) -> Vec2<S::Speed> {
     let body = &world.bodies[usize::from(slot)];
     let motion = integrate::motion(body, world.before[usize::from(slot)], world.level(switches) != Level::Flat);

@@ -254,6 +254,7 @@ fn rouse_around<S: Scalar>(slot: u16, world: &mut World<'_, S>) {
 }
 
 /// Wakes the bodies of an island.
+#[inline(never)]
 fn wake_island<S: Scalar>(member: u16, world: &mut World<'_, S>) {
     let World { bodies, profiles, layers, .. } = world;
     let mut slot = member;
@@ -265,6 +266,7 @@ fn wake_island<S: Scalar>(member: u16, world: &mut World<'_, S>) {
 }
 
 /// Brings the contacts of all that were woken back into the step.
+#[inline(never)]
 fn wake_contacts<S: Scalar>(world: &mut World<'_, S>) {
     let World { profiles, layers, pool, .. } = world;
     let sleeps = |slot: u16| profiles[usize::from(slot)].rest == ASLEEP;
