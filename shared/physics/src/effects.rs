@@ -153,10 +153,19 @@ impl Switches for Effects {
 /// if the second parameter names one, such as `{ Level::Grounded as u8 }`; nor what only other bodies need than the third one
 /// says, such as `{ Variety::BOXES.bits() }`. [`World::declare`](crate::World::declare) makes sure that nothing is missed.
 ///
-/// Bits that stand for no effect don't compile:
-/// ```compile_fail
+/// Bits that stand for no effect don't compile, and the compiler says so: "a bit of the set stands for no effect".
+/// ```compile_fail,E0080
 /// use flat_physics::{Effects, Only, Switches};
 /// let effects = Only::<0x8000>.effects();
+/// ```
+/// Nor do levels or bodies that there aren't.
+/// ```compile_fail,E0080
+/// use flat_physics::{Effects, Only, Switches};
+/// let level = Only::<0, 3>.level();
+/// ```
+/// ```compile_fail,E0080
+/// use flat_physics::{Effects, Only, Switches};
+/// let variety = Only::<0, 1, 0x80>.variety();
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Only<const BITS: u16, const LEVEL: u8 = { u8::MAX }, const VARIETY: u8 = { Variety::ALL.bits() }>;
