@@ -310,3 +310,40 @@ fn nobody_falls_asleep_on_what_has_just_gone() {
         }
     }
 }
+
+#[test]
+fn a_settled_pit_that_is_woken_goes_the_same_way_each_time_and_settles_again() {
+    let material = Material { restitution: ratio(1, 5), friction: ratio(3, 10), ..Material::DEFAULT };
+    let wall = |x: i16, y: i16, w: i16, h: i16| {
+        let def = BodyDef::fixed(Shape::Box { half: vec2(px(w), px(h)) }, vec2(px(x), px(y)));
+        BodyDef { material, ..def }
+    };
+    let pit = Box::<Storage<Fixed, 48, 256>>::default;
+    let (mut first, mut second) = (pit(), pit());
+    let (mut pit, mut woken) = (first.world(), second.world());
+    for wall in [wall(50, 108, 66, 8), wall(-8, 0, 8, 108), wall(108, 0, 8, 108)] {
+        pit.spawn(&wall).unwrap();
+    }
+    let balls: Vec<Handle> = (0..40)
+        .map(|n| {
+            let at = vec2(px(9 + n % 7 * 13 + n / 7 % 2 * 4), px(90 - n / 7 * 14));
+            pit.spawn(&BodyDef { material, ..BodyDef::rigid(Shape::Circle { radius: px(6) }, at) }).unwrap()
+        })
+        .collect();
+    // It may take a while until the last one rests.
+    assert!((0..40).any(|_| (steps(&mut pit, 100), asleep(&pit) == balls.len()).1));
+    let settled = digest(&pit);
+    steps(&mut pit, 100);
+    assert_eq!(digest(&pit), settled);
+
+    let mut wake = || {
+        woken.copy_from(&pit).unwrap();
+        woken.apply_impulse(balls[20], vec2(px(40), px(-90))).unwrap();
+        let digests: Vec<u64> = (0..1000).map(|_| (step(&mut woken, ON), digest(&woken)).1).collect();
+        (digests, asleep(&woken))
+    };
+    let (once, twice) = (wake(), wake());
+    assert!(once == twice);
+    assert!(once.0[0] != settled && once.0[999] != settled);
+    assert_eq!(once.1, balls.len());
+}
