@@ -10,6 +10,8 @@ const MOST_UNUSED: f64 = 1.0;
 /// Effects that keep lists of the bodies concerned: an empty list is no work, even where they are on.
 const LISTS: Effects =
     Effects::CCD.and(Effects::SENSORS).and(Effects::ONE_WAY).and(Effects::KINEMATIC).and(Effects::TILES);
+/// A scene in which everything comes to rest, and most instructions that its steps may take then, where bodies sleep.
+const SETTLED: (&str, f64) = ("ball_pit", 2000.0);
 /// Most bytes of code of a game with gravity and boxes on a floor.
 const MOST_SMALL: u64 = 6 * 1024;
 /// Most bytes of code of a game with everything.
@@ -159,6 +161,14 @@ impl Costs {
                     scene.scene
                 ));
             }
+            let sleep = scene.toggles.iter().find(|toggle| !toggle.called_for && toggle.effect == Effects::SLEEP);
+            let settled = sleep.and_then(|toggle| toggle.cost).map(|cost| scene.step + cost);
+            if let Some(settled) = settled.filter(|settled| scene.scene == SETTLED.0 && *settled > SETTLED.1) {
+                problems.push(format!(
+                    "{}: asleep, a step takes {settled:.0} instructions, at most {} may be",
+                    scene.scene, SETTLED.1
+                ));
+            }
             for toggle in scene.toggles.iter().filter(|toggle| !toggle.called_for && LISTS.contain(toggle.effect)) {
                 if let Some(percent) = toggle.cost.map(|cost| scene.percent(cost)).filter(|part| *part > MOST_UNUSED) {
                     problems.push(format!(
@@ -190,7 +200,8 @@ mod tests {
 
     fn costs(switches: Switches, toggle: Toggle, sizes: Option<Sizes>) -> Costs {
         let effects = "gravity".into();
-        let scene = SceneCosts { scene: "pit", bodies: 10, effects, step: 1000.0, switches, toggles: vec![toggle] };
+        let scene =
+            SceneCosts { scene: "ball_pit", bodies: 10, effects, step: 1000.0, switches, toggles: vec![toggle] };
         let provenance = Provenance { date: String::new(), commit: String::new(), host: String::new() };
         Costs { scenes: vec![scene], sizes, provenance }
     }
@@ -208,6 +219,13 @@ mod tests {
         assert_eq!(problems(Effects::CCD, false, 10.0), 0);
         assert_eq!(problems(Effects::CCD, true, 500.0), 0, "it is called for");
         assert_eq!(problems(Effects::DAMPING, false, 500.0), 0, "it has every body to do");
+    }
+
+    #[test]
+    fn what_has_settled_costs_next_to_nothing_where_bodies_sleep() {
+        let problems = |cost| costs(FREE, toggle(Effects::SLEEP, false, cost), None).problems().len();
+        assert_eq!(problems(1000.0), 0);
+        assert_eq!(problems(1001.0), 1);
     }
 
     #[test]
