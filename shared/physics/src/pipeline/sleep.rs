@@ -119,10 +119,11 @@ fn may_sleep<S: Scalar>(body: &Body<S>) -> bool {
 
 /// Slow while something presses on the body, or not moving at all. In free fall nobody is at rest, however slow.
 fn is_at_rest<S: Scalar>(body: &Body<S>, slow: S::Speed, knows_what_presses: bool) -> bool {
-    let is_slow = body.velocity.x.is_within(slow) && body.velocity.y.is_within(slow);
+    if !body.velocity.x.is_within(slow) || !body.velocity.y.is_within(slow) || body.marks.has(Marks::FORCED) {
+        return false;
+    }
     let is_pressed = body.marks.has(Marks::HELD_X.or(Marks::HELD_Y)) || !knows_what_presses;
-    let is_still = body.velocity == Vec2::default() && !body.marks.has(Marks::MOVED);
-    is_slow && (is_pressed || is_still) && !body.marks.has(Marks::FORCED)
+    is_pressed || (body.velocity == Vec2::default() && !body.marks.has(Marks::MOVED))
 }
 
 /// Lets all islands fall asleep whose bodies have been slow for long enough.
