@@ -28,21 +28,15 @@ const ROUNDS: usize = 16;
 /// Tiles along which one sweep slides: a floor and a wall, before it stops at the next.
 const SURFACES: usize = 3;
 
-/// Whether motions may be cut short.
-#[inline]
-pub(crate) fn is_on<S: Scalar>(world: &World<'_, S>, switches: impl Switches) -> bool {
-    switches.on(Effects::CCD) || world.level(switches) == Level::Exact
-}
-
 /// Moves every body, and none through another.
 ///
 /// Who is fast shows as all are moved. Most steps nobody is; otherwise the motions are taken back, and those that would meet
 /// something cut short.
 pub(crate) fn advance<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    if !is_on(world, switches) {
-        return integrate::positions(world, switches);
-    }
     let exact = world.level(switches) == Level::Exact;
+    if !switches.on(Effects::CCD) && !exact {
+        return integrate::positions(world, switches, false);
+    }
     let threshold = if exact { S::Real::ZERO } else { world.config.ccd_threshold };
     let slow = S::speed_scaled(world.smallest, threshold);
     // Floats can't take a motion back to the last bit, nor can a motion that is cut already or a bounce be told afterwards.
@@ -56,12 +50,12 @@ pub(crate) fn advance<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
         }
     }
     let (travel, fastest) = (world.travel, world.fastest);
-    integrate::positions(world, switches);
+    integrate::positions(world, switches, !lenient);
     if lenient && !world.fastest.is_within(slow) {
         take_back(world, switches);
         (world.travel, world.fastest) = (travel, fastest);
         limit(world, threshold, switches);
-        integrate::positions(world, switches);
+        integrate::positions(world, switches, true);
     }
 }
 

@@ -7,7 +7,7 @@
 use crate::body::{Body, Marks};
 use crate::config::Level;
 use crate::effects::{Effects, Switches};
-use crate::pipeline::{bounce, ccd};
+use crate::pipeline::bounce;
 use crate::scalar::{Quantity, Scalar};
 use crate::variety::Variety;
 use crate::vec2::Vec2;
@@ -89,10 +89,9 @@ pub(crate) fn hold_kinematic<S: Scalar>(world: &mut World<'_, S>, switches: impl
     }
 }
 
-/// Moves every body by its velocity, which is first held within the speed limit.
-pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+/// Moves every body by its velocity, which is first held within the speed limit. `cuts` says whether motions may be cut short.
+pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, cuts: bool) {
     let averaged = world.level(switches) != Level::Flat;
-    let cuts = ccd::is_on(world, switches);
     let (mut fastest, mut strays) = (S::Speed::ZERO, false);
     for &slot in world.layers.dynamics() {
         let body = &mut world.bodies[usize::from(slot)];
