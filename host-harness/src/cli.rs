@@ -275,7 +275,7 @@ pub enum LevelArg {
     /// Accumulated impulses and a pass from the ground up.
     #[default]
     Grounded,
-    /// More passes, and the time of impact for every body.
+    /// More passes, and the time of impact for whoever is fast.
     Exact,
 }
 

@@ -33,11 +33,10 @@ const SURFACES: usize = 3;
 /// Who is fast shows as all are moved. Most steps nobody is; otherwise the motions are taken back, and those that would meet
 /// something cut short.
 pub(crate) fn advance<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    let exact = world.level(switches) == Level::Exact;
-    if !switches.on(Effects::CCD) && !exact {
+    if !switches.on(Effects::CCD) && world.level(switches) != Level::Exact {
         return integrate::positions(world, switches, false);
     }
-    let threshold = if exact { S::Real::ZERO } else { world.config.ccd_threshold };
+    let threshold = world.config.ccd_threshold;
     let slow = S::speed_scaled(world.smallest, threshold);
     // Floats can't take a motion back to the last bit, nor can a motion that is cut already or a bounce be told afterwards.
     let lenient = S::Real::SLACK == S::Real::ZERO && !world.deep && !world.bounced && world.fastest.is_within(slow);

@@ -153,7 +153,7 @@ pub enum Level {
     /// Accumulated impulses and a pass from the ground up.
     #[default]
     Grounded,
-    /// More passes, and the time of impact for every body.
+    /// More passes, and the time of impact for whoever is fast.
     Exact,
 }
 
