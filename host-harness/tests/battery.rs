@@ -7,7 +7,7 @@ use std::fmt::Write;
 use flat_physics::{Fixed, Level, Quantity, Scalar, Storage, World, digest, step};
 use flat_rig::check::{Checks, Finding, Outcome};
 use flat_rig::variant::options;
-use flat_scenes::{Buttons, Cue, Memory, Order, Parameters, Player, SCENES, Scene, Shortfall, Variant, find};
+use flat_scenes::{Buttons, Cue, Memory, Mix, Order, Parameters, Player, SCENES, Scene, Shortfall, Variant, find};
 use flat_wire::message::{BodyState, ContactState, ScalarKind};
 
 /// Runs a scene and checks what it promises.
@@ -168,6 +168,20 @@ fn what_stands_stands_still() {
 #[test]
 fn nothing_sinks_in_or_leaves_a_pit() {
     hold(PITS);
+}
+
+#[test]
+fn whatever_is_crushed_does_not_shoot_out() {
+    let crush = find("crush").unwrap();
+    for seed in 0..40 {
+        for mirrored in [false, true] {
+            let parameters = crush.parameters(None, Some(seed), Order::Forward).unwrap();
+            let uneven = Variant { mirrored, mix: Mix::Masses, ..Variant::NONE };
+            let parameters = crush.vary(parameters, uneven).unwrap();
+            let failures = failures::<Fixed>(crush, &parameters, Level::Grounded, ScalarKind::Fixed, &mut Vec::new());
+            assert!(failures.is_empty(), "{failures}");
+        }
+    }
 }
 
 /// Each step must not stop anew what is squeezed: with the time of impact for everybody, these pits were deeper than 1.5 px.

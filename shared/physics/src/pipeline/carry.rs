@@ -6,7 +6,8 @@
 //! Attachments", 2012, who hang up cloth so). It is kept
 //!
 //! - between a body and the first one that isn't far lighter, along a row of those that are;
-//! - between a kinematic body that moves and each of the row that it pushes.
+//! - between a kinematic body that moves and each of the row that it pushes, unless it presses that on something immovable:
+//!   there is no room then, and the row's impulses would add up to what throws it out once it is let go.
 //!
 //! Rows lie along an axis; along that of gravity there are none, where the pass from the ground up carries everything.
 
@@ -77,7 +78,7 @@ fn carry<S: Scalar>(world: &mut World<'_, S>, falls: bool, driven: bool, correct
             (before[usize::from(slot)], after[usize::from(slot)]) = (NONE, NONE);
         }
         let next = [before, after];
-        let mut rows = Rows { contacts: pool.all(), bodies, profiles, horizontal, next, correction };
+        let mut rows = Rows { contacts: pool.all_mut(), bodies, profiles, horizontal, next, correction };
         if rows.link() {
             rows.carry(driven);
         }
@@ -86,7 +87,7 @@ fn carry<S: Scalar>(world: &mut World<'_, S>, falls: bool, driven: bool, correct
 
 /// Bodies in rows along an axis.
 struct Rows<'r, S: Scalar> {
-    contacts: &'r [Contact<S>],
+    contacts: &'r mut [Contact<S>],
     bodies: &'r mut [Body<S>],
     profiles: &'r [Profile<S>],
     horizontal: bool,
@@ -100,8 +101,9 @@ impl<S: Scalar> Rows<'_, S> {
     /// Notes who is next to whom; whether anybody is.
     fn link(&mut self) -> bool {
         let mut any = false;
-        for (place, contact) in self.contacts.iter().enumerate() {
-            let Some(along) = self.direction(contact) else { continue };
+        for place in 0..self.contacts.len() {
+            let Some(along) = self.direction(&self.contacts[place]) else { continue };
+            let contact = self.contacts[place];
             any = true;
             self.note(contact.a, along, place as u16);
             if !contact.flags.has(Flags::IMMOVABLE) {
@@ -112,16 +114,21 @@ impl<S: Scalar> Rows<'_, S> {
     }
 
     fn carry(&mut self, driven: bool) {
-        for contact in self.contacts {
-            let Some(along) = self.direction(contact) else { continue };
+        for place in 0..self.contacts.len() {
+            let Some(along) = self.direction(&self.contacts[place]) else { continue };
+            let contact = self.contacts[place];
             if contact.flags.has(Flags::IMMOVABLE) {
                 if driven && self.speed(contact.b) != S::Speed::ZERO {
-                    self.push(contact, !along);
+                    if self.is_jammed(&contact, !along) {
+                        self.ease(place, !along);
+                    } else {
+                        self.push(&contact, !along);
+                    }
                 }
             } else if contact.share < S::unit_ratio(1, 5) {
-                self.reach(contact, contact.a, along);
+                self.reach(&contact, contact.a, along);
             } else if contact.share > S::unit_ratio(4, 5) {
-                self.reach(contact, contact.b, !along);
+                self.reach(&contact, contact.b, !along);
             }
         }
     }
@@ -168,6 +175,37 @@ impl<S: Scalar> Rows<'_, S> {
             if !is_far_lighter::<S>(other, mass) {
                 return self.stop(heavy, slot, along, gap, S::mass_share(mass, other));
             }
+        }
+    }
+
+    /// Whether a kinematic body presses a row on something immovable.
+    fn is_jammed(&self, contact: &Contact<S>, along: bool) -> bool {
+        let towards = if along { self.speed(contact.b) } else { -self.speed(contact.b) };
+        let (mut gap, mut slot) = (contact.gap, contact.a);
+        for _ in 0..LONGEST {
+            let Some(next) = self.after(slot, along) else { return false };
+            gap = gap.saturating_add(next.gap);
+            if next.flags.has(Flags::IMMOVABLE) {
+                return towards > S::Speed::ZERO && gap <= S::Speed::ZERO;
+            }
+            slot = next.other(slot);
+        }
+        false
+    }
+
+    /// Forgets the impulses in a row for which there is no room: no push makes any, and each step would add another.
+    fn ease(&mut self, first: usize, along: bool) {
+        let contact = &mut self.contacts[first];
+        contact.impulse = Vec2::default();
+        let mut slot = contact.a;
+        for _ in 0..LONGEST {
+            let place = self.next[usize::from(along)][usize::from(slot)];
+            let Some(contact) = self.contacts.get_mut(usize::from(place)) else { return };
+            contact.impulse = Vec2::default();
+            if contact.flags.has(Flags::IMMOVABLE) {
+                return;
+            }
+            slot = contact.other(slot);
         }
     }
 

@@ -27,8 +27,9 @@ use crate::world::World;
 
 /// Solves all contacts for velocities.
 pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    warm_start(world, switches);
+    // First: what it undid of a warm start would stay in the impulses, and come out once the row is let go.
     carry::velocities(world, switches);
+    warm_start(world, switches);
     for _ in 0..world.config.velocity_iterations {
         if !pass(world, switches) {
             break; // what is left is for the next step
@@ -86,8 +87,8 @@ fn for_each_live<S: Scalar>(
     bodies[usize::from(upper)].velocity = a;
 }
 
-/// Applies the impulses of the last step, from the top down. What is crushed starts with a quarter of them: bodies would shoot
-/// out afterwards.
+/// Applies the impulses of the last step, from the top down. What is crushed starts without: bodies would shoot out
+/// afterwards.
 #[inline(never)]
 fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let friction = switches.on(Effects::FRICTION);
@@ -113,7 +114,7 @@ fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
         }
         if contact.impulse.x != S::Speed::ZERO {
             if contact.gap < crushed {
-                contact.impulse = contact.impulse.map(|v| S::half_speed(S::half_speed(v)));
+                contact.impulse = Vec2::default();
             }
             if !friction {
                 contact.impulse.y = S::Speed::ZERO;
