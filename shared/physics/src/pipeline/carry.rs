@@ -48,15 +48,20 @@ pub(crate) fn positions<S: Scalar>(world: &mut World<'_, S>, switches: impl Swit
 
 /// Whether some rigid body is far lighter than another.
 pub(crate) fn is_uneven<S: Scalar>(slots: &[u16], bodies: &[Body<S>], profiles: &[Profile<S>]) -> bool {
+    masses(slots, bodies, profiles).is_some_and(|[lightest, heaviest]| is_far_lighter::<S>(lightest, heaviest))
+}
+
+/// The masses of the lightest and of the heaviest rigid body.
+pub(crate) fn masses<S: Scalar>(slots: &[u16], bodies: &[Body<S>], profiles: &[Profile<S>]) -> Option<[S::Real; 2]> {
     let mut range = None;
     for slot in slots.iter().map(|&slot| usize::from(slot)) {
         if bodies[slot].status.is_rigid() {
             let mass = profiles[slot].mass;
-            let (lightest, heaviest) = range.unwrap_or((mass, mass));
-            range = Some((lightest.lesser(mass), heaviest.greater(mass)));
+            let [lightest, heaviest] = range.unwrap_or([mass, mass]);
+            range = Some([lightest.lesser(mass), heaviest.greater(mass)]);
         }
     }
-    range.is_some_and(|(lightest, heaviest)| is_far_lighter::<S>(lightest, heaviest))
+    range
 }
 
 /// Whether a body is so much lighter that a few passes over contacts don't carry a push through it: less than a quarter.

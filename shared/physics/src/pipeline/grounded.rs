@@ -22,11 +22,14 @@ use crate::pipeline::narrowphase::GRAZE;
 use crate::pipeline::order::Ground;
 use crate::pipeline::{carry, ccd};
 use crate::scalar::{Quantity, Scalar, ratio};
+use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
 /// Solves all contacts for velocities.
 pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
+    let uneven = switches.variety().contain(Variety::MASSES) && world.uneven;
+    let most = if uneven { most(world) } else { None };
     // First: what it undid of a warm start would stay in the impulses, and come out once the row is let go.
     carry::velocities(world, switches);
     warm_start(world, switches);
@@ -36,6 +39,41 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
         }
     }
     shock(world, switches);
+    if let Some(most) = most {
+        hold(world, most);
+    }
+}
+
+/// The largest speed of any body where some are a thousand times lighter than others; or up to an eighth more, as the longer
+/// component and half of the other take no root.
+#[cold]
+#[inline(never)]
+fn most<S: Scalar>(world: &World<'_, S>) -> Option<S::Speed> {
+    let slots = world.layers.dynamics();
+    let [lightest, heaviest] = carry::masses(slots, world.bodies, world.profiles)?;
+    let part = S::unit_ratio(1, 32);
+    if lightest >= S::length_times(S::length_times(heaviest, part), part) {
+        return None;
+    }
+    let speed = |velocity: Vec2<S::Speed>| {
+        let Vec2 { x, y } = velocity.map(Quantity::abs);
+        x.greater(y).saturating_add(S::half_speed(x.lesser(y)))
+    };
+    let speeds = slots.iter().map(|&slot| speed(world.bodies[usize::from(slot)].velocity));
+    Some(speeds.fold(S::Speed::ZERO, Quantity::greater))
+}
+
+/// Contacts take energy, never give any. But a few passes leave a light body under a heavy one with a part of the impulse that the
+/// heavy one needs, and it would shoot out of the heap.
+#[cold]
+#[inline(never)]
+fn hold<S: Scalar>(world: &mut World<'_, S>, most: S::Speed) {
+    for &slot in world.layers.dynamics() {
+        let body = &mut world.bodies[usize::from(slot)];
+        if body.status.is_rigid() {
+            body.velocity = body.velocity.map(|speed| speed.held(most));
+        }
+    }
 }
 
 /// Looks at every live contact once; whether that changed something worth another pass.
