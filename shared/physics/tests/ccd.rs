@@ -196,7 +196,9 @@ fn no_shot_leaves_a_crowded_room() {
     }
 }
 
-/// In single file, at one speed, into a wall: each stops behind the one before it.
+/// In single file, at one speed, into a wall. This guards the rounds of the sweep: who is stopped stops who follows, in the same
+/// step, up to the last of the row; with one round alone, a follower ends beyond the centre of the one before it. How far each is
+/// squeezed into the next afterwards is nobody's promise: up to the centre, it counts as held.
 #[test]
 fn a_row_of_shots_does_not_change_places() {
     let mut random = Random(4);
@@ -217,7 +219,7 @@ fn a_row_of_shots_does_not_change_places() {
             for n in 0..20 {
                 step(&mut world, EFFECTS);
                 let places = row.map(|handle| place(&world, handle)[0]);
-                let in_order = places.windows(2).all(|pair| pair[0] > pair[1]) && places[0] < 49.0;
+                let in_order = places.windows(2).all(|pair| pair[0] >= pair[1]) && places[0] <= 50.0;
                 assert!(in_order, "row {shot}, {level:?}, {speed} px/s, gap {gap}, step {n}: {places:?}");
             }
         }
