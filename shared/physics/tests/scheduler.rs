@@ -58,6 +58,24 @@ fn a_desktop_may_take_two_steps_at_a_time() {
 }
 
 #[test]
+fn screens_of_30_and_120_hz_get_evenly_spaced_steps() {
+    for (frame_us, pace, allowed) in
+        [(33_333, Pace::DESKTOP, 1..=2), (16_667, Pace::DEFAULT, 1..=1), (8_333, Pace::DEFAULT, 0..=1)]
+    {
+        let mut scheduler = Scheduler::new(pace);
+        let frames = 10_000_000 / frame_us;
+        let steps = (0..frames).map(|frame| {
+            scheduler.elapse(frame_us);
+            let steps = scheduler.take();
+            assert!(allowed.contains(&steps), "{steps} steps in frame {frame} of {frame_us} us");
+            u64::from(steps)
+        });
+        let steps: u64 = steps.sum();
+        assert!((599..=600).contains(&steps), "{steps} steps in ten seconds of {frame_us} us");
+    }
+}
+
+#[test]
 fn every_pace_is_kept() {
     let pace = |normal, catch_up| Pace {
         normal: NonZero::new(normal).unwrap(),

@@ -33,7 +33,12 @@ impl Default for Pace {
     }
 }
 
-/// Accumulates time and pays it out in steps.
+/// Accumulates time and pays it out in steps. A step is 1/60 s and can't be made longer or shorter: all else would be another
+/// simulation on every screen.
+///
+/// A game that draws 60 times a second runs one step a frame; at 120 frames a second, every other frame has none, and at 30 each
+/// has two. That takes [`Pace::DESKTOP`]: with one step a frame, 30 frames a second fall behind and catch up in bursts of four.
+/// Between steps, a body may be drawn at its position plus [`backlog_us`](Scheduler::backlog_us) of its velocity.
 #[derive(Clone, Debug, Default)]
 pub struct Scheduler {
     pace: Pace,
