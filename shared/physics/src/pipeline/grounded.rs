@@ -21,7 +21,7 @@ use crate::effects::{Effects, Switches};
 use crate::pipeline::narrowphase::GRAZE;
 use crate::pipeline::order::Ground;
 use crate::pipeline::{carry, ccd};
-use crate::scalar::{Quantity, Scalar, ratio};
+use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
@@ -92,10 +92,6 @@ fn pass<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) -> bool {
 /// seconds.
 const ADRIFT: I16F16 = ratio(1, 1024);
 
-/// Gap from which on bodies are crushed, px. Beyond 1 px only, and with a half of the impulses, one in eight comes out of a crush at
-/// over 48 px/s; from 1/4 px on, deep heaps sag.
-const CRUSHED: I16F16 = ratio(-1, 2);
-
 /// What solving leaves of a velocity in a heap at rest, at most, px a step (0.004 px/s).
 const RESIDUE: I16F16 = ratio(1, 1 << 14);
 
@@ -131,7 +127,7 @@ fn for_each_live<S: Scalar>(
 fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
     let friction = switches.on(Effects::FRICTION);
     let ground = world.layers.ground();
-    let crushed = S::per_step(S::real(CRUSHED));
+    let crushed = S::per_step(S::real(px(-1)));
     let World { pool, bodies, before, .. } = world;
     let contacts = pool.all_mut();
     let Some(last) = contacts.last() else { return };
