@@ -263,7 +263,7 @@ fn note_fixed<S: Scalar, W: Switches>(
         if !grid.is_empty() {
             let reach = body.half + way;
             let bounds = Bounds { min: body.position - reach, max: body.position + reach };
-            grid.visit_inline(&bounds, pairs.bodies, |other| {
+            grid.visit(&bounds, pairs.bodies, |other| {
                 // Whoever sleeps is found by rigid bodies; others have woken it if they move.
                 if is_rigid || pairs.bodies[usize::from(other)].status.is_static() {
                     pairs.note(slot, other, update);

@@ -219,7 +219,7 @@ fn sweep_around<S: Scalar>(slot: u16, world: &mut World<'_, S>, switches: impl S
     if !body.status.is_rigid() || !body.marks.has(Marks::FAST) {
         return stopped;
     }
-    layers.statics().visit(&way, bodies, &mut |other| {
+    layers.statics().visit(&way, bodies, |other| {
         let target = &bodies[usize::from(other)];
         let notices = switches.on(Effects::SENSORS) && (body.status.is_sensor() || target.status.is_sensor());
         let solid = !notices && target.status.collides();

@@ -84,7 +84,7 @@ fn bucket(x: i32, y: i32) -> usize {
 
 /// Calls a function for every bucket of every body.
 #[inline(never)]
-fn each_entry<S: Scalar>(statics: &[u16], bodies: &[Body<S>], shift: u32, visit: &mut dyn FnMut(u16, usize)) {
+fn each_entry<S: Scalar>(statics: &[u16], bodies: &[Body<S>], shift: u32, mut visit: impl FnMut(u16, usize)) {
     for &slot in statics {
         Cells::under(&bodies[usize::from(slot)], shift).each_bucket(|bucket| visit(slot, bucket));
     }
@@ -120,7 +120,7 @@ impl<'a> Grid<'a> {
                 continue;
             }
             counts = [0; BUCKETS];
-            each_entry(statics, bodies, shift, &mut |_, bucket| counts[bucket] += 1);
+            each_entry(statics, bodies, shift, |_, bucket| counts[bucket] += 1);
             if counts.iter().sum::<u32>() as usize <= self.entries.len() {
                 break;
             }
@@ -133,7 +133,7 @@ impl<'a> Grid<'a> {
             self.taken[bucket / SIDE as usize] |= u16::from(count > 0) << (bucket % SIDE as usize);
         }
         let Self { entries, ends, shift, .. } = self;
-        each_entry(statics, bodies, *shift, &mut |slot, bucket| {
+        each_entry(statics, bodies, *shift, |slot, bucket| {
             let end = &mut ends[bucket];
             entries[usize::from(*end)] = slot;
             *end += 1;
@@ -147,14 +147,8 @@ impl<'a> Grid<'a> {
     }
 
     /// Notes all static bodies whose bounding boxes touch these bounds, each once.
-    #[inline(never)]
-    pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], note: &mut dyn FnMut(u16)) {
-        self.visit_inline(bounds, bodies, note);
-    }
-
-    /// The same for the search, which asks for every body.
     #[inline]
-    pub(crate) fn visit_inline<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], mut note: impl FnMut(u16)) {
+    pub(crate) fn visit<S: Scalar>(&self, bounds: &Bounds<S>, bodies: &[Body<S>], mut note: impl FnMut(u16)) {
         let cells = Cells::of(bounds, self.shift);
         if !cells.meet(&self.taken) {
             return;
