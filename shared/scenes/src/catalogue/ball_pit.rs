@@ -29,8 +29,8 @@ pub(crate) const BALL_PIT: Scene = Scene {
     },
     body: |parameters, number| member(parameters, number, Style::default()),
     promises,
-    // Single pairs under some seeds.
-    shortfalls: &[short("no deep overlap", 400)],
+    // Single pairs, under one seed in ten, where the heap still gives way somewhere.
+    shortfalls: &[short("no deep overlap", 300)],
     ..COMMON
 };
 
