@@ -1,4 +1,13 @@
-//! The stages, in the order in which [`step`](crate::step()) runs them, and the scheduler that says when.
+//! The stages of a [`step`](crate::step()), and the scheduler that says when one is due.
+//!
+//! | stage | files |
+//! |---|---|
+//! | detect | `sleep`; `broadphase`, which takes `order`, `sweep`, `grid` and `pairs`; `narrowphase`, with `one_way` and `terrain` |
+//! | integrate velocity | `integrate`, which begins with `bounce` |
+//! | solve velocity | `flat`, or `carry`, `warm_start` and `grounded`, by level |
+//! | integrate position | `ccd`, and `integrate` again |
+//! | correct penetration | `position`, and `carry` again |
+//! | events | `events` |
 
 pub mod scheduler;
 
@@ -19,3 +28,4 @@ pub(crate) mod position;
 pub(crate) mod sleep;
 pub(crate) mod sweep;
 pub(crate) mod terrain;
+pub(crate) mod warm_start;

@@ -1,17 +1,17 @@
 //! Impulses, levels Grounded and Exact.
 //!
-//! 1. *Warm start*: every contact begins with the impulse that it ended the last step with (E. Catto, "Iterative Dynamics with
-//!    Temporal Coherence", 2005). It runs from the top down: a body that stood on one other alone hands down what it lacks for
-//!    standing on, so that each contact of a column knows the load above it at once.
-//! 2. *Iterations*: accumulated impulses. With relative velocity v and gap d, a contact asks for `v.n + d >= 0` and may push,
+//! 1. *Rows* with light bodies in between, or that a kinematic one pushes, stop where there is no room for them: see `carry`.
+//! 2. *Warm start*: every contact begins with the impulse that it ended the last step with: see `warm_start`.
+//! 3. *Iterations*: accumulated impulses. With relative velocity v and gap d, a contact asks for `v.n + d >= 0` and may push,
 //!    never pull: `dn = max(-(v.n + d), -N)`, where N is its impulse so far. Friction keeps `|T| <= mu N`. A contact under load
 //!    between equal masses pushes by half as much again (successive over-relaxation, D. Young, 1954), by no more than N / 16: deep
 //!    heaps settle sooner, what just meets isn't thrown apart. Letting go is not exaggerated; nor is the push on what is light and
 //!    lies between heavy bodies, which in time would lift them.
-//! 3. *Shock*: one pass from the ground up. Where a chain of contacts carries a body down to something immovable, the body below
+//! 4. *Shock*: one pass from the ground up. Where a chain of contacts carries a body down to something immovable, the body below
 //!    counts as immovable too (after E. Guendelman, R. Bridson and R. Fedkiw, "Nonconvex Rigid Bodies with Stacking", 2003). The
 //!    push goes along gravity alone, so that a slanted contact doesn't drive a heap sideways. Bodies that move next to nothing
 //!    relative to what they stand on stand still.
+//! 5. *Clamp*: where some bodies are a thousand times lighter than others, nobody ends faster than the fastest was before.
 
 use ::fixed::types::I16F16;
 
@@ -19,9 +19,8 @@ use crate::body::{Body, Marks};
 use crate::contact::{Axis, Contact, Flags};
 use crate::effects::{Effects, Switches};
 use crate::pipeline::narrowphase::GRAZE;
-use crate::pipeline::order::Ground;
-use crate::pipeline::{carry, ccd};
-use crate::scalar::{Quantity, Scalar, px, ratio};
+use crate::pipeline::{carry, ccd, warm_start};
+use crate::scalar::{Quantity, Scalar, ratio};
 use crate::variety::Variety;
 use crate::vec2::{Vec2, vec2};
 use crate::world::World;
@@ -32,7 +31,7 @@ pub(crate) fn solve<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
     let most = if uneven { most(world) } else { None };
     // First: what it undid of a warm start would stay in the impulses, and come out once the row is let go.
     carry::velocities(world, switches);
-    warm_start(world, switches);
+    warm_start::apply(world, switches);
     for _ in 0..world.config.velocity_iterations {
         if !pass(world, switches) {
             break; // what is left is for the next step
@@ -121,113 +120,6 @@ fn for_each_live<S: Scalar>(
     bodies[usize::from(upper)].velocity = a;
 }
 
-/// Applies the impulses of the last step, from the top down. What is crushed starts without: bodies would shoot out
-/// afterwards.
-#[inline(never)]
-fn warm_start<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches) {
-    let friction = switches.on(Effects::FRICTION);
-    let ground = world.layers.ground();
-    let crushed = S::per_step(S::real(px(-1)));
-    let World { pool, bodies, before, .. } = world;
-    let contacts = pool.all_mut();
-    let Some(last) = contacts.last() else { return };
-    let mut upper = last.a;
-    let mut a = bodies[usize::from(upper)].velocity;
-    // How many contacts bear the upper body, and the last of them.
-    let (mut bearers, mut bearer) = (0, None);
-    for contact in contacts.iter_mut().rev() {
-        if contact.flags.has(Flags::FAR) {
-            continue;
-        }
-        if contact.a != upper {
-            hand_down(bearers, bearer, &mut a, bodies, before, ground, switches);
-            bodies[usize::from(upper)].velocity = a;
-            upper = contact.a;
-            a = bodies[usize::from(upper)].velocity;
-            (bearers, bearer) = (0, None);
-        }
-        if contact.impulse.x != S::Speed::ZERO {
-            if contact.gap < crushed {
-                contact.impulse = Vec2::default();
-            }
-            if !friction {
-                contact.impulse.y = S::Speed::ZERO;
-            }
-            let b = &mut bodies[usize::from(contact.b)].velocity;
-            let change = contact.impulse;
-            (a, *b) = if !S::is_tame(a, *b, change.x) {
-                pushed_apart_widely(contact, change, a, *b)
-            } else if contact.flags.is_plain(switches) {
-                pushed_alike(contact, change, a, *b)
-            } else {
-                pushed_apart(contact, change, a, *b, switches)
-            };
-        }
-        if contact.flags.has(Flags::BEARS) {
-            (bearers, bearer) = (bearers + 1, Some(contact));
-        }
-    }
-    hand_down(bearers, bearer, &mut a, bodies, before, ground, switches);
-    bodies[usize::from(upper)].velocity = a;
-}
-
-/// What a body that stood lacks for staying on the only contact that bears it, that one has to carry.
-#[inline(always)] // into the loop over contacts
-fn hand_down<S: Scalar>(
-    bearers: u32,
-    bearer: Option<&mut Contact<S>>,
-    a: &mut Vec2<S::Speed>,
-    bodies: &mut [Body<S>],
-    before: &[Vec2<S::Speed>],
-    ground: Ground,
-    switches: impl Switches,
-) {
-    let Some(contact) = bearer else { return };
-    if bearers > 1 || contact.slopes(switches) {
-        return;
-    }
-    let stood = bodies[usize::from(contact.a)].marks.has(Marks::STOOD);
-    if !stood || contact.impulse.x <= S::Speed::ZERO {
-        return;
-    }
-    let lower = usize::from(contact.b);
-    let b = &mut bodies[lower].velocity;
-    let firm = if contact.flags.has(Flags::IMMOVABLE) { *b } else { before[lower] };
-    if !S::is_nearly_same(*a, firm) {
-        (*a, *b) = hand(contact, ground.depth(firm), ground, *a, *b, switches);
-    }
-}
-
-/// Lets a contact carry what brings the upper body to the speed towards the ground that the lower one had.
-#[cold]
-#[inline(never)]
-fn hand<S: Scalar>(
-    contact: &mut Contact<S>,
-    firm: S::Speed,
-    ground: Ground,
-    a: Vec2<S::Speed>,
-    b: Vec2<S::Speed>,
-    switches: impl Switches,
-) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
-    let zero = S::Speed::ZERO;
-    // What little the lower one moved is noise, which mustn't travel up and down.
-    let firm = if firm.is_within(S::per_step(S::real(ratio(1, 1024)))) { zero } else { firm };
-    let excess = ground.depth(a).saturating_sub(firm);
-    if S::is_negligible(vec2(excess, zero)) {
-        return (a, b);
-    }
-    let change = if contact.flags.has(Flags::IMMOVABLE) {
-        excess
-    } else if contact.is_even(switches) {
-        excess.saturating_add(excess)
-    } else {
-        S::over_share(excess, contact.share)
-    };
-    let change = change.lesser(S::MOST_IMPULSE - contact.impulse.x).greater(-contact.impulse.x);
-    contact.impulse.x = contact.impulse.x + change;
-    pushed_apart_widely(contact, vec2(change, zero), a, b)
-}
-
 /// Changes the velocities as a contact calls for; whether by more than a [`RESIDUE`].
 #[inline(always)] // into the loop over contacts
 fn visit<S: Scalar>(
@@ -290,7 +182,7 @@ fn answer<S: Scalar, const PLAIN: bool>(
 
 /// [`pushed_apart`] where the contact is [plain](Flags::is_plain).
 #[inline(always)] // into the loops over contacts
-fn pushed_alike<S: Scalar>(
+pub(crate) fn pushed_alike<S: Scalar>(
     contact: &Contact<S>,
     change: Vec2<S::Speed>,
     a: Vec2<S::Speed>,
@@ -302,7 +194,7 @@ fn pushed_alike<S: Scalar>(
 
 /// Tame velocities after a tame change of their difference, each by its share.
 #[inline(always)] // into the loop over contacts
-fn pushed_apart<S: Scalar>(
+pub(crate) fn pushed_apart<S: Scalar>(
     contact: &Contact<S>,
     change: Vec2<S::Speed>,
     a: Vec2<S::Speed>,
@@ -358,7 +250,7 @@ fn wide_frame<S: Scalar>(contact: &Contact<S>, a: Vec2<S::Speed>, b: Vec2<S::Spe
 /// [`pushed_apart`] for fast bodies.
 #[cold]
 #[inline(never)]
-fn pushed_apart_widely<S: Scalar>(
+pub(crate) fn pushed_apart_widely<S: Scalar>(
     contact: &Contact<S>,
     change: Vec2<S::Speed>,
     a: Vec2<S::Speed>,
