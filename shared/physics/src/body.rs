@@ -340,12 +340,12 @@ impl Marks {
     pub(crate) const HELD_Y: Self = Self(1 << 2);
     /// Rests, over however many others, on something immovable.
     pub(crate) const GROUNDED: Self = Self(1 << 3);
-    /// Moves otherwise in this step than pairs were found for: has bounced, or is stopped on its way.
-    pub(crate) const JOLTED: Self = Self(1 << 5);
     /// Left out of the step until something wakes it.
     pub(crate) const ASLEEP: Self = Self(1 << 4);
     /// The game has changed a body that isn't rigid, while others sleep. Only rigid bodies do, so both share a bit.
     pub(crate) const STIRRED: Self = Self::ASLEEP;
+    /// Moves otherwise in this step than pairs were found for: has bounced, or is stopped on its way.
+    pub(crate) const JOLTED: Self = Self(1 << 5);
     /// Forces wait for the next step.
     pub(crate) const FORCED: Self = Self(1 << 6);
     /// Was [`GROUNDED`](Self::GROUNDED) in the last step. Known while velocities are solved, when no forces wait.

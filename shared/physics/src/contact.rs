@@ -56,7 +56,7 @@ impl Flags {
     pub(crate) const TOUCHING: Self = Self(1 << 12);
     /// Touched the time before that.
     pub(crate) const TOUCHED: Self = Self(1 << 13);
-    /// Has bounced in this step, or in the last one if it wasn't looked at since.
+    /// Has bounced in this step, or in the last one if it wasn't looked at since. Of a sensor: was passed within the step.
     pub(crate) const BOUNCED: Self = Self(1 << 14);
     /// `a` stands on the one-way platform `b`.
     pub(crate) const LANDED: Self = Self(1 << 15);

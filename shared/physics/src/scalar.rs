@@ -195,7 +195,7 @@ pub trait Scalar: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn over_slope(speed: Self::Speed, slope: Self::Unit) -> Self::Speed;
     /// `speed / share` for a share above 0, saturating.
     fn over_share(speed: Self::Speed, share: Self::Unit) -> Self::Speed;
-    /// A speed after (or before, where `accelerations` is negative) falling: `sqrt(speed^2 + 2 acceleration distance)`; 0 if that
+    /// A speed after (or before, where `acceleration` is negative) falling: `sqrt(speed^2 + 2 acceleration distance)`; 0 if that
     /// is not real.
     fn fallen(speed: Self::Speed, acceleration: Self::Speed, distance: Self::Speed) -> Self::Speed;
     /// A length as the speed that covers it in a step, saturating.

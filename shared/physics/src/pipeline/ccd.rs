@@ -1,8 +1,8 @@
 //! Continuous collision detection: no body passes through another, however fast.
 //!
-//! Before bodies move, each that would move by more than a part of its own size is swept along its motion, relative to that of
-//! the other, against everything that the broadphase paired it with, and against the tiles. It stops where it first meets
-//! something and keeps its velocity: the next step finds it at the surface, and solves the contact there.
+//! Each body that would move by more than [`ccd_threshold`](crate::Config::ccd_threshold) says is swept along its motion, relative
+//! to that of the other, against everything that the broadphase paired it with, and against the tiles. It stops where it first
+//! meets something and keeps its velocity: the next step finds it at the surface, and solves the contact there.
 //!
 //! The pairs are those of the motion that the step began with. A body that has bounced, was pushed, or stops on its way moves
 //! otherwise: it is swept against whatever is near, round by round until nobody is stopped any more.
@@ -38,9 +38,9 @@ pub(crate) fn advance<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
     }
     let threshold = world.config.ccd_threshold;
     let slow = S::speed_scaled(world.smallest, threshold);
-    // Floats can't take a motion back to the last bit, nor can a motion that is cut already or a bounce be told afterwards.
-    let lenient = S::Real::SLACK == S::Real::ZERO && !world.deep && !world.bounced && world.fastest.is_within(slow);
-    if !lenient {
+    // Floats can't take a motion back to the last bit, and afterwards nobody could tell that one was cut already, or who has bounced.
+    let optimistic = S::Real::SLACK == S::Real::ZERO && !world.deep && !world.bounced && world.fastest.is_within(slow);
+    if !optimistic {
         if world.deep {
             hold_back(world, switches);
         }
@@ -49,8 +49,8 @@ pub(crate) fn advance<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
         }
     }
     let (travel, fastest) = (world.travel, world.fastest);
-    integrate::positions(world, switches, !lenient);
-    if lenient && !world.fastest.is_within(slow) {
+    integrate::positions(world, switches, !optimistic);
+    if optimistic && !world.fastest.is_within(slow) {
         take_back(world, switches);
         (world.travel, world.fastest) = (travel, fastest);
         limit(world, threshold, switches);

@@ -59,7 +59,8 @@ impl<'a, S: Scalar> World<'a, S> {
     /// What began, lasted and ended in the last step, if [`EVENTS`](crate::Effects::EVENTS) was on: first the ends of pairs that
     /// parted for good, then one event a pair that is still near, in the order in which the solver took the contacts.
     ///
-    /// Sensors notice what overlaps them at the start of a step; what passes one within a step goes unnoticed.
+    /// Sensors notice what overlaps them at the start of a step. With [`CCD`](crate::Effects::CCD) or at
+    /// [`Level::Exact`](crate::Level::Exact), bodies that are sensors also notice what passes them within one; sensor tiles don't.
     ///
     /// A contact begins once and ends once, also when a body is removed: its end is told by the step after that, with the handle
     /// that it had. Bodies at rest don't flicker: what touched lasts until the gap exceeds 1/16 px. Only
