@@ -17,7 +17,7 @@ use crate::error::Error;
 ///
 /// Each must have code, and all its code, inlined copies included, must lie in RAM. A name without code fails the check: what
 /// was renamed proves nothing.
-const HOT_PATH: [&str; 14] = [
+const HOT_PATH: [&str; 15] = [
     // The timer queue, and the turn of the executor for physics.
     "esp_rtos::timer::TimeDriver::arm_next_wakeup",
     "esp_rtos::timer::timer_tick_handler",
@@ -31,7 +31,8 @@ const HOT_PATH: [&str; 14] = [
     "flat_physics::pipeline::narrowphase::",
     "flat_physics::pipeline::integrate::velocities",
     "flat_physics::pipeline::flat::solve",
-    "flat_physics::pipeline::grounded::solve",
+    "flat_physics::pipeline::grounded::",
+    "flat_physics::pipeline::warm_start::",
     "flat_physics::pipeline::integrate::positions",
     "flat_physics::pipeline::position::correct",
     "flat_physics::pipeline::events::publish",
