@@ -58,6 +58,14 @@ fn every_scene_passes_on_the_mock_and_the_file_says_so() {
             verdict["checks"].as_array().is_some_and(|checks| checks.iter().any(|check| check["measured"].is_f64()))
         );
     }
+    let shown: Vec<_> = include_str!("../../README.md").lines().filter(|line| line.starts_with("ok ")).collect();
+    assert!(!shown.is_empty(), "README.md shows a run");
+    for line in shown {
+        let words: Vec<_> = line.split_whitespace().collect();
+        let verdict = verdicts.iter().find(|verdict| verdict["scene"] == words[1]).expect("a scene");
+        let digest = words.iter().skip_while(|&&word| word != "digest").nth(1).expect("a digest");
+        assert_eq!(verdict["digest"], **digest, "README.md shows another run of {}", words[1]);
+    }
 }
 
 #[test]
