@@ -96,8 +96,8 @@ fn failures<S: Scalar>(
     failures
 }
 
-/// Every scene of these names keeps its promises, but for its known shortfalls: however it is perturbed in fixed point at level Grounded; as it is
-/// written in the other number formats and at level Exact.
+/// Every scene of these names keeps its promises, but for its known shortfalls: however it is perturbed in fixed point at level
+/// Grounded; as it is written in the other number formats and at level Exact.
 fn hold(names: &[&str]) {
     let mut all = String::new();
     for name in names {

@@ -38,9 +38,9 @@ pub struct Config<S: Scalar> {
     pub damping: S::Real,
     /// Largest speed, px/s, 1..=7620, where the cap is called for. Default 500.
     pub speed_cap: S::Real,
-    /// A body is swept once a step moves it by more than this multiple of its half extent, 0..=16, where CCD is called for or the
-    /// level is Exact. Default 1: beyond that, thin walls could be missed; contacts stop whoever is slower. With 0, what is squeezed
-    /// in a deep heap is stopped again and again, and sinks in.
+    /// A body is swept once a step moves it by more than this multiple of half its shorter side, 0..=16, where CCD is called for
+    /// or the level is Exact. Default 1: beyond that, thin walls could be missed; contacts stop whoever is slower. With 0, what is
+    /// squeezed in a deep heap is stopped again and again, and sinks in.
     pub ccd_threshold: S::Real,
     /// Speed along each axis, px/s, 0..=60, up to which a body that something presses on is at rest, where sleep is called for.
     /// Default 1/16; more freezes what slides slowly.
