@@ -7,8 +7,8 @@ use super::{Capacity, Room};
 
 pub(crate) const NAME: &str = "esp32c3";
 
-// What 313 KiB of RAM hold beside the code that runs from it and a stack of 17 KiB, of which 8 were ever used; binary32 has the
-// 64 KiB that the boot loader leaves.
+// What 313 KiB of RAM hold beside the code that runs from it and a stack, of which 8 KiB were ever used; binary32 has the 64 KiB that
+// the boot loader leaves.
 pub(crate) const OUTBOX_BYTES: usize = 12 * 1024;
 pub(crate) const ROOM: Room =
     Room { fixed: Capacity { bodies: 1024, contacts: 2560 }, f32: Capacity { bodies: 256, contacts: 1280 } };
