@@ -20,7 +20,7 @@ use crate::geometry::Bounds;
 use crate::scalar::{Quantity, Scalar, px, ratio};
 use crate::tiles::TileMap;
 use crate::variety::Variety;
-use crate::vec2::vec2;
+use crate::vec2::{Vec2, vec2};
 use crate::world::World;
 
 /// How far bodies move before pairs are looked for again, px.
@@ -235,53 +235,71 @@ fn search<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches, wanted: 
     let pairs = Pairs { bodies, profiles, ground, switches, wanted, changed };
     // Until pairs are next looked for, either body may move by a skin. Where somebody is fast, that is in the next step.
     let margin = S::real(px(if *fastest < skin::<S>() { 2 * SKIN } else { SKIN }));
-    let map = (switches.on(Effects::TILES) && terrain != NONE).then_some((terrain, &*tiles));
-    if map.is_some() || !grid.is_empty() {
-        note_fixed(dynamics, margin, grid, map, &pairs, &mut update);
+    if !grid.is_empty() {
+        note_static(dynamics, margin, grid, &pairs, &mut update);
+    }
+    if switches.on(Effects::TILES) && terrain != NONE {
+        note_terrain(dynamics, margin, terrain, tiles, &pairs, &mut update);
     }
     note_moving(dynamics, margin, links, &pairs, &mut update);
     update.finish(dynamics, links, bodies, profiles, ground, tell_ends);
 }
 
-/// Notes what bodies may touch of the static layer, and of the tile map and its slot.
+/// Notes what bodies may touch of the static layer.
 #[inline(never)]
-fn note_fixed<S: Scalar, W: Switches>(
+fn note_static<S: Scalar, W: Switches>(
     dynamics: &[u16],
     margin: S::Real,
     grid: &Grid<'_>,
-    map: Option<(u16, &TileMap<'_>)>,
     pairs: &Pairs<'_, S, W>,
     update: &mut Update<'_, '_, S>,
 ) {
     for &slot in dynamics {
         let body = &pairs.bodies[usize::from(slot)];
-        let is_rigid = body.status.is_rigid();
-        if !body.status.collides() || !(is_rigid || pairs.switches.on(Effects::SENSORS)) {
+        if !pairs.may_notice(body) {
             continue;
         }
-        let way = body.velocity.map(|v| sweep::magnitude(S::in_a_step(v)) + margin);
-        if !grid.is_empty() {
-            let reach = body.half + way;
-            let bounds = Bounds { min: body.position - reach, max: body.position + reach };
-            grid.visit(&bounds, pairs.bodies, |other| {
-                // Whoever sleeps is found by rigid bodies; others have woken it if they move.
-                if is_rigid || pairs.bodies[usize::from(other)].status.is_static() {
-                    pairs.note(slot, other, update);
-                }
-            });
-        }
-        // Asked here as well, so that what isn't called for isn't there.
-        if pairs.switches.on(Effects::TILES)
-            && let Some((map, tiles)) = map
-        {
-            let reach = way.x.greater(way.y);
-            let around = tiles.bits_around::<S>(body.position, body.half + vec2(reach, reach));
-            // Most are near nothing.
-            if around != 0 {
-                note_tiles(slot, map, reach, around, tiles, pairs, update);
+        let is_rigid = body.status.is_rigid();
+        let reach = body.half + way(body, margin);
+        let bounds = Bounds { min: body.position - reach, max: body.position + reach };
+        grid.visit(&bounds, pairs.bodies, |other| {
+            // Whoever sleeps is found by rigid bodies; others have woken it if they move.
+            if is_rigid || pairs.bodies[usize::from(other)].status.is_static() {
+                pairs.note(slot, other, update);
             }
+        });
+    }
+}
+
+/// Notes what bodies may touch of the tile map, whose slot is `map`.
+#[inline(never)]
+fn note_terrain<S: Scalar, W: Switches>(
+    dynamics: &[u16],
+    margin: S::Real,
+    map: u16,
+    tiles: &TileMap<'_>,
+    pairs: &Pairs<'_, S, W>,
+    update: &mut Update<'_, '_, S>,
+) {
+    for &slot in dynamics {
+        let body = &pairs.bodies[usize::from(slot)];
+        if !pairs.may_notice(body) {
+            continue;
+        }
+        let way = way(body, margin);
+        let reach = way.x.greater(way.y);
+        let around = tiles.bits_around::<S>(body.position, body.half + vec2(reach, reach));
+        // Most are near nothing.
+        if around != 0 {
+            note_tiles(slot, map, reach, around, tiles, pairs, update);
         }
     }
+}
+
+/// How far a body comes in a step along each axis, and a margin.
+#[inline]
+fn way<S: Scalar>(body: &Body<S>, margin: S::Real) -> Vec2<S::Real> {
+    body.velocity.map(|v| sweep::magnitude(S::in_a_step(v)) + margin)
 }
 
 /// Notes which bodies that may move may meet.
@@ -319,6 +337,12 @@ pub(crate) struct Pairs<'w, S: Scalar, W: Switches> {
 }
 
 impl<S: Scalar, W: Switches> Pairs<'_, S, W> {
+    /// Whether anything happens when a body touches what is fixed.
+    #[inline]
+    fn may_notice(&self, body: &Body<S>) -> bool {
+        body.status.collides() && (body.status.is_rigid() || self.switches.on(Effects::SENSORS))
+    }
+
     /// Whether a pair of this upper body's that has a contact is still one.
     #[inline]
     pub(crate) fn are_known_of(&self, upper: &Body<S>) -> bool {

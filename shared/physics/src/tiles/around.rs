@@ -1,7 +1,6 @@
 //! What is around a shape: mostly nothing; and the common case of a circle that reaches no further than the eight tiles around the
 //! place where its centre is.
 
-use super::axis::Axis;
 use super::contacts::TileContact;
 use super::map::{Side, Tile, TileMap, is_solid};
 use super::touch::rounded;
@@ -22,24 +21,41 @@ struct Place<S: Scalar> {
 const SIDES: [Side; 4] = [Side::Left, Side::Right, Side::Top, Side::Bottom];
 
 impl TileMap<'_> {
-    /// The bits of all tiles that something around a point overlaps or touches, and perhaps of some less than 2 px further away.
-    #[inline]
+    /// The bits of all tiles that something around a point overlaps or touches, and perhaps of some beside them.
+    #[inline(always)] // asked of every body, mostly for nothing
     pub(crate) fn bits_around<S: Scalar>(&self, centre: Vec2<S::Real>, reach: Vec2<S::Real>) -> u8 {
-        let between = |axis: &Axis, centre: S::Real, reach: S::Real| {
-            let (centre, reach) = (S::floor(centre), S::floor(reach).saturating_add(1));
-            axis.between(centre.saturating_sub(reach), centre.saturating_add(reach))
-        };
+        self.bits_inside::<S>(centre, reach).unwrap_or_else(|| self.bits_across_edges::<S>(centre, reach))
+    }
+
+    /// The same around what reaches over no more than three columns, and over no edge of the map.
+    #[inline(always)] // for the same reason
+    fn bits_inside<S: Scalar>(&self, centre: Vec2<S::Real>, reach: Vec2<S::Real>) -> Option<u8> {
         let (columns, rows) = self.axes();
-        let pitch = columns.count();
-        let (columns, rows) = (between(columns, centre.x, reach.x), between(rows, centre.y, reach.y));
-        let mut bits = 0;
-        let mut rest = self.bytes_from(rows.start * pitch + columns.start);
-        for _ in rows {
-            let row = rest.get(..columns.len()).unwrap_or_default();
-            bits = row.iter().fold(bits, |bits, tile| bits | tile);
-            rest = rest.get(pitch as usize..).unwrap_or_default();
+        let [left, right] = columns.both(whole_px::<S>(centre.x, reach.x))?;
+        let width = right.wrapping_sub(left);
+        if width > 2 {
+            return None;
         }
-        bits
+        let [top, bottom] = rows.both(whole_px::<S>(centre.y, reach.y))?;
+        let third = if width == 2 { u8::MAX } else { 0 };
+        let mut place = top * columns.count() + left;
+        let mut bits = 0;
+        let rows = (bottom + 1).saturating_sub(top);
+        for _ in 0..rows {
+            let row = self.bytes_from(place).first_chunk::<3>()?;
+            bits |= row[0] | row[1] | row[2] & third;
+            place += columns.count();
+        }
+        Some(bits)
+    }
+
+    /// The same around whatever is large, or near the edges of the map.
+    #[inline(never)]
+    fn bits_across_edges<S: Scalar>(&self, centre: Vec2<S::Real>, reach: Vec2<S::Real>) -> u8 {
+        let (columns, rows) = self.axes();
+        let columns = columns.between(whole_px::<S>(centre.x, reach.x));
+        let rows = rows.between(whole_px::<S>(centre.y, reach.y));
+        rows.flat_map(|row| self.row(row, &columns)).fold(0, |bits, tile| bits | tile)
     }
 
     #[inline]
@@ -102,6 +118,13 @@ impl TileMap<'_> {
         let bits = self.byte(row * self.axes().0.count() + column);
         is_solid(bits).then(|| Tile::new(column, row, bits))
     }
+}
+
+/// The first and the last of the whole px around a coordinate that something overlaps or touches, and at most one more on each side.
+#[inline]
+fn whole_px<S: Scalar>(centre: S::Real, reach: S::Real) -> [i32; 2] {
+    let (centre, reach) = (S::floor(centre), S::floor(reach).saturating_add(1));
+    [centre.saturating_sub(reach), centre.saturating_add(reach)]
 }
 
 #[inline(never)]

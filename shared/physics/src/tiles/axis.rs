@@ -73,18 +73,22 @@ impl Axis {
     pub(super) fn span<S: Scalar>(&self, low: S::Real, high: S::Real) -> Range<u32> {
         // The last px that begins below `low`, so that touching counts on both sides alike.
         let first = S::floor(S::Real::ZERO.saturating_sub(low)).saturating_neg().saturating_sub(1);
-        self.between(first, S::floor(high))
+        self.between([first, S::floor(high)])
     }
 
-    /// What covers any of an interval in whole px, ends included.
+    /// What covers the first and the last of some whole px, if something does.
     #[inline]
-    pub(super) fn between(&self, first: i32, last: i32) -> Range<u32> {
-        let [first, last] = [first, last].map(|whole_px| whole_px.saturating_sub(self.origin.into()));
+    pub(super) fn both(&self, ends: [i32; 2]) -> Option<[u32; 2]> {
+        let [first, last] = ends.map(|whole_px| whole_px.saturating_sub(self.origin.into()));
+        let is_inside = |distance: i32| (distance as u32) < self.extent as u32;
+        (is_inside(first) && is_inside(last)).then(|| [first, last].map(|distance| self.divided(distance)))
+    }
+
+    /// What covers any of some whole px, of which the ends are given.
+    #[inline]
+    pub(super) fn between(&self, ends: [i32; 2]) -> Range<u32> {
+        let [first, last] = ends.map(|whole_px| whole_px.saturating_sub(self.origin.into()));
         let extent = self.extent;
-        let is_inside = |distance: i32| (distance as u32) < extent as u32;
-        if is_inside(first) && is_inside(last) {
-            return self.divided(first)..self.divided(last) + 1;
-        }
         if last < 0 || first >= extent {
             return 0..0;
         }
