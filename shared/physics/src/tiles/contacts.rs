@@ -36,7 +36,10 @@ impl TileMap<'_> {
     /// is stopped by it.
     #[inline]
     pub fn contacts<S: Scalar>(&self, outline: &Outline<S>, margin: S::Real, mut visit: impl FnMut(TileContact<S>)) {
-        self.visit_contacts(outline, margin, &mut visit);
+        // Without one-way tiles, nobody has to know what is around a circle.
+        if !outline.circle || self.has_one_way() || !self.contacts_around(outline, margin, &mut visit) {
+            self.visit_contacts(outline, margin, &mut visit);
+        }
     }
 
     #[inline(never)]

@@ -58,12 +58,14 @@ pub struct TileMap<'a> {
     rows: Axis,
     inactive: u32,
     sensors: u32,
+    /// The bits of all tiles, those that are off included.
+    kinds: u8,
 }
 
 impl<'a> TileMap<'a> {
     /// A map without tiles, with room for one in each byte.
     pub fn new(storage: &'a mut [u8]) -> Self {
-        Self { tiles: storage, columns: Axis::default(), rows: Axis::default(), inactive: 0, sensors: 0 }
+        Self { tiles: storage, columns: Axis::default(), rows: Axis::default(), inactive: 0, sensors: 0, kinds: 0 }
     }
 
     /// Takes over a layer, with all its tiles active; the tiles before are gone.
@@ -83,6 +85,7 @@ impl<'a> TileMap<'a> {
         self.rows = Axis::new(origin.y, tile_size.y, layer.height());
         self.inactive = 0;
         self.sensors = source.iter().filter(|&&bits| TileFlags::masked(bits).is_sensor()).count() as u32;
+        self.kinds = source.iter().fold(0, |kinds, bits| kinds | bits);
         Ok(())
     }
 
@@ -96,14 +99,14 @@ impl<'a> TileMap<'a> {
         let room = self.tiles.get_mut(..source.len()).ok_or(TileError::NoRoom { needed: source.len(), capacity })?;
         room.copy_from_slice(source);
         (self.columns, self.rows) = (other.columns, other.rows);
-        (self.inactive, self.sensors) = (other.inactive, other.sensors);
+        (self.inactive, self.sensors, self.kinds) = (other.inactive, other.sensors, other.kinds);
         Ok(())
     }
 
     /// Forgets all tiles.
     pub fn clear(&mut self) {
         (self.columns, self.rows) = (Axis::default(), Axis::default());
-        (self.inactive, self.sensors) = (0, 0);
+        (self.inactive, self.sensors, self.kinds) = (0, 0, 0);
     }
 
     /// Whether there are no tiles.
@@ -136,6 +139,12 @@ impl<'a> TileMap<'a> {
     #[inline]
     pub fn sensors(&self) -> u32 {
         self.sensors
+    }
+
+    /// Whether some tile may be one-way.
+    #[inline]
+    pub(super) fn has_one_way(&self) -> bool {
+        self.kinds & TileFlags::ONE_WAY.bits() != 0
     }
 
     /// What a tile does; nothing if it is switched off or there is no such tile.
