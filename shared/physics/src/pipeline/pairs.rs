@@ -79,17 +79,30 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
 
     /// Makes room for so many contacts of a body with the tile map.
     pub(crate) fn note_terrain(&mut self, a: u16, terrain: u16, count: usize, profiles: &[Profile<S>]) {
-        let blocking = |contact: &Contact<S>| contact.b == terrain && !contact.flags.has(Flags::SENSOR);
         let mut kept = 0;
-        if self.group(a).filter(|contact| blocking(contact)).count() > count {
-            // What bears the body stays, and what else there is room for.
-            kept = self.keep(a, |contact| blocking(contact) && terrain::is_in_use(contact), count);
+        for contact in self.group(a).filter(|contact| is_blocking(contact, terrain)) {
+            contact.flags.set(Flags::KEPT);
+            kept += 1;
         }
-        kept += self.keep(a, blocking, count - kept);
+        if kept > count {
+            return self.keep_most_used(a, terrain, count);
+        }
+        self.kept += kept;
         for _ in kept..count {
             self.pool.push(terrain::found(a, terrain, None, profiles));
             self.regroup = true;
         }
+    }
+
+    /// Of a body's blocking contacts with the tile map, which are more, keeps so many: first those that bear or stop the body.
+    #[cold]
+    fn keep_most_used(&mut self, a: u16, terrain: u16, count: usize) {
+        for contact in self.group(a).filter(|contact| is_blocking(contact, terrain)) {
+            contact.flags.clear(Flags::KEPT);
+        }
+        let used = |contact: &Contact<S>| is_blocking(contact, terrain) && terrain::is_in_use(contact);
+        let kept = self.keep(a, used, count);
+        self.keep(a, |contact| is_blocking(contact, terrain), count - kept);
     }
 
     /// Notes that a body may overlap a sensor tile.
@@ -155,6 +168,11 @@ impl<'p, 'a, S: Scalar> Update<'p, 'a, S> {
             self.pool.set_aside(tell_ends);
         }
     }
+}
+
+/// Whether a contact is with what blocks in the tile map.
+fn is_blocking<S: Scalar>(contact: &Contact<S>, terrain: u16) -> bool {
+    contact.b == terrain && !contact.flags.has(Flags::SENSOR)
 }
 
 /// Takes over into a contact what its bodies' definitions say.
