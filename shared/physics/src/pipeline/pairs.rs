@@ -255,8 +255,10 @@ fn regroup<S: Scalar>(contacts: &mut [Contact<S>], order: &[u16], groups: &mut [
 /// Sorts each body's contacts by the other body, in the order of bodies.
 fn sort_groups<S: Scalar>(contacts: &mut [Contact<S>], bodies: &[Body<S>], ground: Ground) {
     for start in 1..contacts.len() {
-        let follows =
-            |pair: &[Contact<S>]| pair[0].a == pair[1].a && order::precedes(pair[1].b, pair[0].b, bodies, ground);
+        // All that a body has with the tile map are with one slot.
+        let follows = |pair: &[Contact<S>]| {
+            pair[0].a == pair[1].a && pair[0].b != pair[1].b && order::precedes(pair[1].b, pair[0].b, bodies, ground)
+        };
         let mut place = start;
         while place > 0 && follows(&contacts[place - 1..=place]) {
             contacts.swap(place, place - 1);
