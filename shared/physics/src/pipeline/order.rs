@@ -66,6 +66,7 @@ impl Ground {
 }
 
 /// Sorts a list in any order: a Shell sort, with gaps by G. Gonnet and R. Baeza-Yates (1991).
+#[inline(never)]
 pub(crate) fn sort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
     let mut gap = list.len();
     while gap > 1 {
@@ -77,6 +78,7 @@ pub(crate) fn sort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Grou
 }
 
 /// Sorts a list that was sorted not long ago.
+#[inline(never)]
 pub(crate) fn resort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground) {
     let key = |slot: u16| ground.upright(bodies[usize::from(slot)].position);
     let Some(mut before) = list.first().map(|&slot| key(slot)) else {
@@ -95,7 +97,7 @@ pub(crate) fn resort<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Gr
 }
 
 /// Moves an entry down to where it belongs among every `gap`-th one before it, which are sorted.
-#[inline(never)]
+#[inline(always)] // saving registers would cost as much as the work
 fn insert<S: Scalar>(list: &mut [u16], bodies: &[Body<S>], ground: Ground, mut place: usize, gap: usize) {
     let slot = list[place];
     while place >= gap && precedes(slot, list[place - gap], bodies, ground) {
