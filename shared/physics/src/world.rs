@@ -56,11 +56,14 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
 
     /// An empty world with default settings on this storage; whatever an earlier one held is gone.
     pub fn world(&mut self) -> World<'_, S> {
+        // A loop whose length the compiler knows it unrolls, for a KB of code.
+        vacate(core::hint::black_box(&mut self.bodies[..]), &mut self.profiles);
         let [order, links, groups, entries, crept] = &mut self.lists;
-        let mut world = World {
-            config: Config::default(),
-            gravity: Vec2::default(),
-            bounce_threshold: S::Speed::ZERO,
+        let config = Config::default();
+        World {
+            config,
+            gravity: config.gravity.map(S::acceleration),
+            bounce_threshold: S::speed(config.velocity_threshold),
             bodies: &mut self.bodies,
             profiles: &mut self.profiles,
             pool: Pool::new(&mut self.contacts),
@@ -76,7 +79,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             deep: false,
             bounced: false,
             strays: false,
-            speed_cap: S::Speed::ZERO,
+            speed_cap: S::speed(config.speed_cap),
             used: 0,
             free: 0,
             count: 0,
@@ -90,9 +93,7 @@ impl<S: Scalar, const BODIES: usize, const CONTACTS: usize, const TILES: usize> 
             stirred: false,
             escaped: 0,
             saturations: 0,
-        };
-        world.clear();
-        world
+        }
     }
 }
 
@@ -163,13 +164,7 @@ pub struct World<'a, S: Scalar> {
 impl<S: Scalar> World<'_, S> {
     /// Removes all bodies, resets all counters, settings and declarations. No contact's end is told.
     pub fn clear(&mut self) {
-        for (body, profile) in self.bodies.iter_mut().zip(self.profiles.iter_mut()) {
-            if body.status.is_taken() {
-                body.status = Body::<S>::EMPTY.status;
-                profile.generation = profile.generation.wrapping_add(1);
-            }
-            profile.rest = 0;
-        }
+        vacate(self.bodies, self.profiles);
         self.pool.reset();
         self.tiles.clear();
         self.terrain = NO_TERRAIN;
@@ -357,5 +352,16 @@ impl<S: Scalar> World<'_, S> {
             && self.bodies[slot].status.is_taken()
             && self.profiles[slot].generation == handle.generation;
         if present { Ok(slot) } else { Err(Error::NoSuchBody { handle }) }
+    }
+}
+
+/// Removes whoever holds a slot.
+fn vacate<S: Scalar>(bodies: &mut [Body<S>], profiles: &mut [Profile<S>]) {
+    for (body, profile) in bodies.iter_mut().zip(profiles) {
+        if body.status.is_taken() {
+            *body = Body::EMPTY;
+            profile.generation = profile.generation.wrapping_add(1);
+        }
+        profile.rest = 0;
     }
 }

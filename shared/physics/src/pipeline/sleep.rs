@@ -287,6 +287,7 @@ impl<S: Scalar> World<'_, S> {
     }
 
     /// Wakes all.
+    #[inline(never)] // for the same reason as `World::clear`
     pub(crate) fn wake_all(&mut self) {
         for (body, profile) in self.bodies.iter_mut().zip(self.profiles.iter_mut()) {
             if body.status.is_rigid() {
