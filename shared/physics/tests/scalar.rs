@@ -1,7 +1,7 @@
 //! Every fixed-point routine against f64, over its whole range.
 
 use fixed::types::{I2F30, I8F24, I16F16};
-use flat_physics::scalar::{EXTENT_LIMIT, Fixed, POSITION_LIMIT, SPEED_LIMIT, Scalar};
+use flat_physics::scalar::{EXTENT_LIMIT, Exact, Fixed, POSITION_LIMIT, SPEED_LIMIT, Scalar};
 use flat_physics::{Vec2, vec2};
 use proptest::prelude::*;
 
@@ -93,6 +93,19 @@ proptest! {
         let (own, other) = (real(a), real(b));
         let exact = f64::from(b) / (f64::from(a) + f64::from(b)) * UNIT;
         assert_near(Fixed::mass_share(own, other).to_bits(), exact, HALF)?;
+    }
+
+    #[test]
+    fn quotients_are_exact(v in bits(i32::MAX), whole in 1..=i32::MAX, small in bits(i32::MAX), cut in 0..=i16::MAX) {
+        let (motion, rest) = (i64::from(v), i64::from(i16::MAX - cut));
+        prop_assert_eq!(i64::from(Fixed::uncut(speed(v), cut).to_bits()), motion * rest / i64::from(i16::MAX));
+        for whole in [whole, small.abs().max(1)] {
+            let part = v.unsigned_abs() % whole.unsigned_abs();
+            let exact = (u64::from(part) << 30) / u64::from(whole.unsigned_abs());
+            prop_assert_eq!(u64::from(real(part as i32).fraction_of(real(whole)).to_bits().unsigned_abs()), exact);
+            let share = whole.min(1 << 30);
+            assert_near(Fixed::over_share(speed(v), unit(share)).to_bits(), f64::from(v) * UNIT / f64::from(share), HALF)?;
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use ::fixed::types::{I2F30, I16F16};
 
 use super::Quantity;
+use super::fixed_point::quotient;
 use crate::vec2::Vec2;
 
 /// Lengths whose squares and products compare without rounding, and their fractions as a `Unit`.
@@ -57,7 +58,7 @@ impl Exact<I2F30> for I16F16 {
     const NUDGE: Self = Self::DELTA;
 
     fn fraction_of(self, whole: Self) -> I2F30 {
-        I2F30::from_bits(((wide(self) << 30) / wide(whole)) as i32)
+        I2F30::from_bits(quotient((wide(self) as u64) << 30, wide(whole) as u32) as i32)
     }
 
     #[inline]
@@ -92,9 +93,19 @@ impl Exact<I2F30> for I16F16 {
         let upper = if excess == 0 { low } else { low >> (2 * excess) | high << (64 - 2 * excess) };
         let root = (square_root(upper) + 1) << excess;
         let start = (ahead as u64).saturating_sub(root);
+        if start >= length2 {
+            return Some(I2F30::ONE);
+        }
         // 33 bits of the divisor leave the quotient right to its last place but one.
         let excess = bits(length2).saturating_sub(33);
-        Some(I2F30::from_bits((((start >> excess) << 30) / (length2 >> excess)).min(1 << 30) as i32))
+        let (start, length2) = ((start >> excess) << 30, length2 >> excess);
+        // Of those, 32 say it to within two.
+        let excess = bits(length2).saturating_sub(32);
+        let mut time = quotient(start >> excess, (length2 >> excess) as u32);
+        while u64::from(time) * length2 > start {
+            time -= 1;
+        }
+        Some(I2F30::from_bits(time as i32))
     }
 }
 
