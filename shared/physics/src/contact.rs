@@ -277,3 +277,9 @@ impl<'a, S: Scalar> Pool<'a, S> {
         self.slots.len() as u16
     }
 }
+
+/// [`slice::swap`], out of line.
+#[inline(never)]
+fn exchange<S: Scalar>(contacts: &mut [Contact<S>], one: usize, other: usize) {
+    contacts.swap(one, other);
+}

@@ -1,6 +1,6 @@
 //! Contacts of bodies that sleep: they lie at the very end of the pool, out of every stage's sight, until their bodies wake.
 
-use super::{Contact, Flags, Pool};
+use super::{Contact, Flags, Pool, exchange};
 use crate::scalar::Scalar;
 
 impl<S: Scalar> Pool<'_, S> {
@@ -32,8 +32,10 @@ impl<S: Scalar> Pool<'_, S> {
         }
         let far = self.slots.len() - self.asleep;
         let start = far - self.aside - count;
-        self.slots.copy_within(awake..self.len, start);
-        self.slots[start..far].rotate_left(count); // what is set aside lies before them
+        for place in (0..count).rev() {
+            exchange(self.slots, awake + place, start + place);
+        }
+        rotate(&mut self.slots[start..far], count); // what is set aside lies before them
         self.asleep += count;
         self.len = awake;
     }
@@ -43,15 +45,17 @@ impl<S: Scalar> Pool<'_, S> {
         let far = self.slots.len() - self.asleep;
         let count = part(&mut self.slots[far..], &wakes);
         let start = far - self.aside;
-        self.slots[start..far + count].rotate_left(self.aside);
-        self.slots.copy_within(start..start + count, self.len);
+        rotate(&mut self.slots[start..far + count], self.aside);
+        for place in 0..count {
+            exchange(self.slots, start + place, self.len + place);
+        }
         self.asleep -= count;
         self.len += count;
     }
 }
 
 /// Moves the contacts for which a condition holds to the front, all in the order in which they were; how many there are.
-fn part<S: Scalar>(contacts: &mut [Contact<S>], condition: &impl Fn(&Contact<S>) -> bool) -> usize {
+fn part<S: Scalar>(contacts: &mut [Contact<S>], condition: &dyn Fn(&Contact<S>) -> bool) -> usize {
     match contacts {
         [] => 0,
         [contact] => usize::from(condition(contact)),
@@ -59,8 +63,23 @@ fn part<S: Scalar>(contacts: &mut [Contact<S>], condition: &impl Fn(&Contact<S>)
             let middle = contacts.len() / 2;
             let (left, right) = contacts.split_at_mut(middle);
             let (first, second) = (part(left, condition), part(right, condition));
-            contacts[first..middle + second].rotate_left(middle - first);
+            rotate(&mut contacts[first..middle + second], middle - first);
             first + second
         }
+    }
+}
+
+/// Moves the first so many contacts behind the others: as [`slice::rotate_left`] does, in a quarter of its code.
+fn rotate<S: Scalar>(contacts: &mut [Contact<S>], first: usize) {
+    let (ahead, behind) = contacts.split_at_mut(first);
+    reverse(ahead);
+    reverse(behind);
+    reverse(contacts);
+}
+
+#[inline(never)]
+fn reverse<S: Scalar>(contacts: &mut [Contact<S>]) {
+    for place in 0..contacts.len() / 2 {
+        exchange(contacts, place, contacts.len() - 1 - place);
     }
 }

@@ -5,7 +5,7 @@
 //! the pool, out of the solver's sight. There they stay for one step, which tells their end. Their bodies' slots may have been
 //! filled anew by then: what names the old ones is kept in the contact.
 
-use super::{Contact, Flags, Pool};
+use super::{Contact, Flags, Pool, exchange};
 use crate::body::Profile;
 use crate::scalar::{Quantity, Scalar};
 
@@ -43,7 +43,7 @@ impl<S: Scalar> Pool<'_, S> {
         for place in 0..self.len {
             if !self.slots[place].has_parted() {
                 if kept < place && tell {
-                    self.slots.swap(kept, place);
+                    exchange(self.slots, kept, place);
                 } else if kept < place {
                     self.slots[kept] = self.slots[place];
                 }
@@ -56,9 +56,13 @@ impl<S: Scalar> Pool<'_, S> {
     /// The same, where all that have parted lie from a place on.
     pub(crate) fn set_aside_from(&mut self, kept: usize, tell: bool) {
         let parted = core::mem::replace(&mut self.len, kept);
-        if !tell {
-            return;
+        if tell {
+            self.set_aside_between(kept, parted);
         }
+    }
+
+    #[inline(never)]
+    fn set_aside_between(&mut self, kept: usize, parted: usize) {
         for place in (kept..parted).rev() {
             let contact = self.slots[place];
             if contact.flags.has(Flags::TOUCHING) {
