@@ -152,6 +152,7 @@ impl<S: Scalar> Sum<S> {
     }
 
     /// From the first one's centre to the second's after part of a motion.
+    #[inline(never)]
     fn offset_after(&self, motion: Vec2<S::Real>, time: S::Unit) -> Vec2<S::Real> {
         self.offset.saturating_sub(part::<S>(motion, time))
     }

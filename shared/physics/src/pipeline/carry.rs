@@ -245,6 +245,7 @@ impl<S: Scalar> Rows<'_, S> {
         }
     }
 
+    #[inline(never)]
     fn change(&mut self, slot: u16, by: S::Speed) {
         let body = &mut self.bodies[usize::from(slot)];
         let zero = S::Speed::ZERO;
