@@ -148,10 +148,10 @@ impl<S: Scalar> Contact<S> {
     /// What a change of relative velocity, or of a distance, does to `a` and to `b`: their shares, to nearest. Of equal masses equal
     /// ones: nothing is lost to rounding.
     #[inline(never)]
-    pub(crate) fn parts(&self, change: Vec2<S::Speed>) -> [Vec2<S::Speed>; 2] {
+    pub(crate) fn parts(&self, change: Vec2<S::Speed>, switches: impl Switches) -> [Vec2<S::Speed>; 2] {
         if self.flags.has(Flags::IMMOVABLE) {
             [change, Vec2::default()]
-        } else if self.flags.has(Flags::EVEN) {
+        } else if self.is_even(switches) {
             [change.map(S::even_part); 2]
         } else {
             [self.share, S::UNIT - self.share].map(|share| change.map(|speed| S::speed_times(speed, share)))

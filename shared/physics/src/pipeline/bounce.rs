@@ -41,7 +41,7 @@ pub(crate) fn bounce<S: Scalar>(world: &mut World<'_, S>, gravity: Vec2<S::Speed
             }
             let approach = approach(contact, bodies, switches);
             if approach >= threshold {
-                bounced |= rebound(contact, approach, gravity, bodies, profiles);
+                bounced |= rebound(contact, approach, gravity, bodies, profiles, switches);
             }
         }
         if !bounced {
@@ -79,6 +79,7 @@ fn rebound<S: Scalar>(
     gravity: Vec2<S::Speed>,
     bodies: &mut [Body<S>],
     profiles: &[Profile<S>],
+    switches: impl Switches,
 ) -> bool {
     let zero = S::Speed::ZERO;
     let pull = if contact.flags.has(Flags::IMMOVABLE) { S::speed_along(gravity, contact.normal) } else { zero };
@@ -105,17 +106,17 @@ fn rebound<S: Scalar>(
     let change = approach.saturating_add(rebound);
     if change > S::FASTEST {
         // More than the format holds.
-        apply(contact, approach, bodies);
-        apply(contact, rebound, bodies);
+        apply(contact, approach, bodies, switches);
+        apply(contact, rebound, bodies, switches);
     } else {
-        apply(contact, change, bodies);
+        apply(contact, change, bodies, switches);
     }
     true
 }
 
-fn apply<S: Scalar>(contact: &Contact<S>, change: S::Speed, bodies: &mut [Body<S>]) {
+fn apply<S: Scalar>(contact: &Contact<S>, change: S::Speed, bodies: &mut [Body<S>], switches: impl Switches) {
     let change = contact.normal.map(|n| S::speed_times(change, n));
-    let [own, other] = contact.parts(change);
+    let [own, other] = contact.parts(change, switches);
     let a = &mut bodies[usize::from(contact.a)].velocity;
     *a = a.saturating_sub(own);
     let b = &mut bodies[usize::from(contact.b)].velocity;

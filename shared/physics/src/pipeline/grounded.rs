@@ -135,7 +135,7 @@ fn visit<S: Scalar>(
         return false; // most contacts at rest
     }
     if !S::is_tame(*a, *b, pushed.x) {
-        (*a, *b) = visit_widely(contact, *a, *b, switches.on(Effects::FRICTION));
+        (*a, *b) = visit_widely(contact, *a, *b, switches);
         return true;
     }
     if flags.is_plain(switches) {
@@ -220,7 +220,7 @@ fn visit_widely<S: Scalar>(
     contact: &mut Contact<S>,
     a: Vec2<S::Speed>,
     b: Vec2<S::Speed>,
-    friction: bool,
+    switches: impl Switches,
 ) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
     let zero = S::Speed::ZERO;
     let (pushed, velocity) = (contact.impulse, wide_frame(contact, a, b));
@@ -230,12 +230,12 @@ fn visit_widely<S: Scalar>(
     }
     let mut change = vec2((-short).greater(-pushed.x), zero);
     contact.impulse.x = pushed.x.saturating_add(change.x).lesser(S::MOST_IMPULSE);
-    if friction && contact.friction > 0 {
+    if switches.on(Effects::FRICTION) && contact.friction > 0 {
         let most = S::coulomb(contact.impulse.x, contact.friction);
         contact.impulse.y = pushed.y.saturating_sub(velocity.y).held(most);
         change.y = contact.impulse.y.saturating_sub(pushed.y);
     }
-    pushed_apart_widely(contact, change, a, b)
+    pushed_apart_widely(contact, change, a, b, switches)
 }
 
 /// Relative velocity in a contact's frame, where it may need more than 32 bits on the way.
@@ -255,12 +255,13 @@ pub(crate) fn pushed_apart_widely<S: Scalar>(
     change: Vec2<S::Speed>,
     a: Vec2<S::Speed>,
     b: Vec2<S::Speed>,
+    switches: impl Switches,
 ) -> (Vec2<S::Speed>, Vec2<S::Speed>) {
     let normal = contact.normal;
     let tangent = vec2(-normal.y, normal.x);
     let change =
         normal.map(|n| S::speed_times(change.x, n)).saturating_add(tangent.map(|t| S::speed_times(change.y, t)));
-    let [own, other] = contact.parts(change);
+    let [own, other] = contact.parts(change, switches);
     (a.saturating_sub(own), b.saturating_add(other))
 }
 

@@ -72,10 +72,10 @@ pub(crate) fn correct<S: Scalar>(world: &mut World<'_, S>, switches: impl Switch
         let b = &world.bodies[usize::from(contact.b)];
         let bears = contact.flags.has(Flags::BEARS) && !flat;
         if bears && a.marks.has(Marks::GROUNDED) && (!b.status.is_rigid() || b.marks.has(Marks::GROUNDED)) {
-            lift(contact, by, world.bodies, ground);
+            lift(contact, by, world.bodies, ground, switches);
         } else {
             let whole = flat || contact.flags.has(Flags::IMMOVABLE);
-            part(contact, if whole { by } else { by.lesser(most) }, world.bodies, ground);
+            part(contact, if whole { by } else { by.lesser(most) }, world.bodies, ground, switches);
             parted = true;
         }
         pushed_anybody = true;
@@ -97,12 +97,15 @@ fn pushed<S: Scalar>(contact: &Contact<S>, bodies: &[Body<S>], ground: Ground) -
 }
 
 /// Moves the upper body alone, away from the ground.
-fn lift<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Body<S>], ground: Ground) {
-    let along_gravity = if contact.flags.has(Flags::AXIS) {
-        correction
-    } else {
-        S::over_slope(correction, ground.depth(contact.normal))
-    };
+fn lift<S: Scalar>(
+    contact: &Contact<S>,
+    correction: S::Speed,
+    bodies: &mut [Body<S>],
+    ground: Ground,
+    switches: impl Switches,
+) {
+    let along_gravity =
+        if contact.slopes(switches) { S::over_slope(correction, ground.depth(contact.normal)) } else { correction };
     let push = S::whole_pushes(along_gravity);
     let body = &mut bodies[usize::from(contact.a)];
     body.push = body.push.saturating_sub(push);
@@ -111,9 +114,15 @@ fn lift<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Bod
 }
 
 /// Moves both bodies along the normal, each by its share.
-fn part<S: Scalar>(contact: &Contact<S>, correction: S::Speed, bodies: &mut [Body<S>], ground: Ground) {
+fn part<S: Scalar>(
+    contact: &Contact<S>,
+    correction: S::Speed,
+    bodies: &mut [Body<S>],
+    ground: Ground,
+    switches: impl Switches,
+) {
     let apart = contact.normal.map(|n| S::speed_times(correction, n));
-    let [own, other] = contact.parts(apart);
+    let [own, other] = contact.parts(apart, switches);
     shift(&mut bodies[usize::from(contact.a)], -own, ground);
     if !contact.flags.has(Flags::IMMOVABLE) {
         shift(&mut bodies[usize::from(contact.b)], other, ground);

@@ -47,7 +47,7 @@ pub(crate) fn apply<S: Scalar>(world: &mut World<'_, S>, switches: impl Switches
             let b = &mut bodies[usize::from(contact.b)].velocity;
             let change = contact.impulse;
             (a, *b) = if !S::is_tame(a, *b, change.x) {
-                pushed_apart_widely(contact, change, a, *b)
+                pushed_apart_widely(contact, change, a, *b, switches)
             } else if contact.flags.is_plain(switches) {
                 pushed_alike(contact, change, a, *b)
             } else {
@@ -116,5 +116,5 @@ fn hand<S: Scalar>(
     };
     let change = change.lesser(S::MOST_IMPULSE - contact.impulse.x).greater(-contact.impulse.x);
     contact.impulse.x = contact.impulse.x + change;
-    pushed_apart_widely(contact, vec2(change, zero), a, b)
+    pushed_apart_widely(contact, vec2(change, zero), a, b, switches)
 }
