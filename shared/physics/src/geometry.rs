@@ -53,6 +53,7 @@ impl<S: Scalar> Outline<S> {
         Self { centre, ..self }
     }
 
+    #[inline(never)]
     pub(crate) fn of(body: &Body<S>) -> Self {
         Self { centre: body.position, half: body.half, circle: body.status.is_circle() }
     }

@@ -351,6 +351,7 @@ fn inner<S: Scalar>(body: &Body<S>) -> Outline<S> {
 
 /// The part of a motion that is left to a body that meets something. If they overlap already, it may be pressed in until its
 /// centre is at the surface; none if it may move on.
+#[inline(never)]
 fn stop<S: Scalar>(body: &Body<S>, motion: Vec2<S::Real>, hit: &Hit<S>) -> Option<S::Unit> {
     let zero = S::Real::ZERO;
     if hit.depth == zero {

@@ -360,7 +360,7 @@ pub(crate) fn leeway<S: Scalar>(
 }
 
 /// Boxes: along the axis of least overlap, the vertical one if equal.
-#[inline]
+#[inline(never)]
 fn boxes<S: Scalar>(
     offset: Vec2<S::Real>,
     touch: Vec2<S::Real>,
