@@ -127,10 +127,10 @@ impl<'a> Grid<'a> {
         }
         let mut total = 0;
         self.taken = [0; SIDE as usize];
-        for (bucket, (end, count)) in self.ends.iter_mut().zip(counts).enumerate() {
+        for (bucket, (end, count)) in self.ends.iter_mut().zip(&counts).enumerate() {
             *end = total; // a start, until the bucket is filled
-            total += count as u16;
-            self.taken[bucket / SIDE as usize] |= u16::from(count > 0) << (bucket % SIDE as usize);
+            total += *count as u16;
+            self.taken[bucket / SIDE as usize] |= u16::from(*count > 0) << (bucket % SIDE as usize);
         }
         let Self { entries, ends, shift, .. } = self;
         each_entry(statics, bodies, *shift, |slot, bucket| {
