@@ -55,7 +55,7 @@ impl<S: Scalar> Pool<'_, S> {
 }
 
 /// Moves the contacts for which a condition holds to the front, all in the order in which they were; how many there are.
-fn part<S: Scalar>(contacts: &mut [Contact<S>], condition: &dyn Fn(&Contact<S>) -> bool) -> usize {
+fn part<S: Scalar>(contacts: &mut [Contact<S>], condition: &impl Fn(&Contact<S>) -> bool) -> usize {
     match contacts {
         [] => 0,
         [contact] => usize::from(condition(contact)),
