@@ -158,11 +158,15 @@ fn print(comparison: &Comparison, wanted: &Wanted<'_>, unit: &str) {
     );
     match comparison.candidates.iter().find(|candidate| wanted.missed(candidate).is_none()) {
         Some(best) => {
-            let saved = comparison.candidates.iter().rev().find(|candidate| wanted.missed(candidate).is_none());
-            let dearest = saved.map_or(1.0, |dearest| dearest.evaluation.cost.mean / best.evaluation.cost.mean);
+            let dearest = comparison.candidates.iter().rev().find(|candidate| wanted.missed(candidate).is_none());
+            let times = dearest.map_or(1.0, |dearest| dearest.evaluation.cost.mean / best.evaluation.cost.mean);
+            let saved = if times < 1.05 {
+                String::new()
+            } else {
+                format!("; the dearest that does takes {times:.1} times as many")
+            };
             println!(
-                "{} {}: {} {unit} a step, the cheapest that meets every tolerance; the dearest that does takes {dearest:.1} times \
-                 as many",
+                "{} {}: {} {unit} a step, the cheapest that meets every tolerance{saved}",
                 style("use").green().bold(),
                 style(best.name()).bold(),
                 grouped(best.evaluation.cost.mean),
