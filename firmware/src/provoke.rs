@@ -40,7 +40,8 @@ fn hang() -> ! {
 #[expect(unconditional_recursion, reason = "that is what it is for")]
 #[inline(never)]
 fn descend(depth: u32) -> u32 {
-    let mut frame = [depth; 16];
+    // With the return address and a pointer: twenty words, none of them left out. One word at the stack's end is watched.
+    let mut frame = [depth; 18];
     black_box(&mut frame);
     descend(depth + 1).wrapping_add(frame[0])
 }
